@@ -47,24 +47,6 @@ class Products {
   MatrixXd value_;
 };
 
-// [d; -K d] by time, latest first: the inputs' window ends after the past, and the two overlap.
-MatrixXd joint_directions(const Realisation& realisation, const GivenInputs& samples, const MatrixXd& directions) {
-  const auto n_all = static_cast<Index>(samples.past.channels.size()),
-             n_inputs = static_cast<Index>(samples.input.channels.size());
-  const int latest = samples.input.time(samples.input.n - 1), earliest = samples.past.time(samples.past.n - 1);
-  MatrixXd explained = MatrixXd::Zero(samples.input.size(), directions.cols());
-  add_product(explained, -1.0, realisation.of_past, directions);
-  MatrixXd out = MatrixXd::Zero((latest - earliest + 1) * n_all, directions.cols());
-  for (int k = 0; k < samples.past.n; ++k) {
-    out.middleRows((latest - samples.past.time(k)) * n_all, n_all) += directions.middleRows(k * n_all, n_all);
-  }
-  for (int k = 0; k < samples.input.n; ++k) {
-    const Index row = (latest - samples.input.time(k)) * n_all + n_all - n_inputs;
-    out.middleRows(row, n_inputs) += explained.middleRows(k * n_inputs, n_inputs);
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<int> hankel_change_references(const EraConfig& config) {
@@ -81,24 +63,44 @@ DeviationLags hankel_change_lags(const EraConfig& config, int n_differences) {
   return {first, furthest_lag(config) - first, n_differences};
 }
 
-MatrixXd hankel_changes(const Realisation& realisation, const EraConfig& config, const BlockDeviations& deviations,
-                        const MatrixXd& directions) {
+RowDirections row_directions(const Realisation& realisation, const EraConfig& config, const MatrixXd& directions) {
+  if (config.inputs.empty()) return {config.first_lag, config.block_rows, directions};
+  // By time, latest first: the inputs' window ends after the past, and the two overlap.
+  const GivenInputs samples = given_inputs(config, static_cast<int>(realisation.scale.size()));
+  const auto n_all = static_cast<Index>(samples.past.channels.size()),
+             n_inputs = static_cast<Index>(samples.input.channels.size());
+  const int latest = samples.input.time(samples.input.n - 1), earliest = samples.past.time(samples.past.n - 1);
+  MatrixXd explained = MatrixXd::Zero(samples.input.size(), directions.cols());
+  add_product(explained, -1.0, realisation.of_past, directions);
+  RowDirections out{-latest, latest - earliest + 1, {}};
+  out.value = MatrixXd::Zero(out.n_lags * n_all, directions.cols());
+  for (int k = 0; k < samples.past.n; ++k) {
+    out.value.middleRows((latest - samples.past.time(k)) * n_all, n_all) += directions.middleRows(k * n_all, n_all);
+  }
+  for (int k = 0; k < samples.input.n; ++k) {
+    const Index row = (latest - samples.input.time(k)) * n_all + n_all - n_inputs;
+    out.value.middleRows(row, n_inputs) += explained.middleRows(k * n_inputs, n_inputs);
+  }
+  return out;
+}
+
+HankelChanges hankel_changes(const Realisation& realisation, const EraConfig& config, const BlockDeviations& deviations,
+                             const MatrixXd& directions) {
   const Products products(realisation, config, deviations);
   const GivenInputs samples = given_inputs(config, static_cast<int>(realisation.scale.size()));
-  const std::vector<int>& outputs = samples.future.channels;
-  const auto ny = static_cast<Index>(outputs.size());
   const bool given = !config.inputs.empty();
-  const MatrixXd joint = given ? joint_directions(realisation, samples, directions) : directions;
+  const MatrixXd row = row_directions(realisation, config, directions).value;
   const Index margin = given ? kInputMargin : 0, n_columns = deviations.n_blocks * directions.cols();
-  MatrixXd out(samples.future.n * ny, n_columns), by_input(samples.input.size(), n_columns);
-  const Index n_steps = samples.future.n + 2 * margin;
-  for (Index step = 0; step < n_steps; ++step) {
-    const MatrixXd y = products.at(step, joint);
+  HankelChanges out;
+  out.outputs.resize(samples.future.size(), n_columns);
+  out.inputs.resize(given ? samples.input.size() : 0, n_columns);
+  for (Index step = 0; step < samples.future.n + 2 * margin; ++step) {
+    const MatrixXd changes = products.at(step, row);
     const Index a = step - margin;
-    if (a >= 0 && a < samples.future.n) products.write(y, outputs, a, out);
-    if (given) products.write(y, config.inputs, step, by_input);
+    if (a >= 0 && a < samples.future.n) products.write(changes, samples.future.channels, a, out.outputs);
+    if (given) products.write(changes, config.inputs, step, out.inputs);
   }
-  if (given) add_product(out, -1.0, realisation.by_input, by_input);
+  if (given) add_product(out.outputs, -1.0, realisation.by_input, out.inputs);
   return out;
 }
 

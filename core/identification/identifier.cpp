@@ -8,6 +8,7 @@
 
 #include "core/identification/camera_leakage.h"
 #include "core/identification/combination_lines.h"
+#include "core/identification/field_shapes.h"
 #include "core/identification/line_evidence.h"
 #include "core/identification/mode_sigmas.h"
 #include "core/identification/model_fit.h"
@@ -145,22 +146,25 @@ std::vector<Mode> judge_published_lines(const std::vector<PoleCluster>& lines, c
 }
 
 // modes[i] belongs to clusters[i]. Poles are in the order of the clusters' members and receive the index of their line.
-void list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& clusters, ModalEstimate& estimate) {
+// Returns the clusters in the order in which they are listed.
+std::vector<std::size_t> list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& clusters,
+                                    ModalEstimate& estimate) {
   std::vector<std::size_t> by_frequency(modes.size());
   std::iota(by_frequency.begin(), by_frequency.end(), std::size_t{0});
   std::sort(by_frequency.begin(), by_frequency.end(),
             [&](std::size_t a, std::size_t b) { return modes[a].frequency_hz < modes[b].frequency_hz; });
-  int i_line = 0;
+  std::vector<std::size_t> listed;
   for (const bool structural : {true, false}) {
     for (const std::size_t i : by_frequency) {
       if ((modes[i].verdict == Verdict::kStructural) != structural) continue;
       for (const std::size_t member : clusters[i].members) {
-        if (member < estimate.poles.size()) estimate.poles[member].i_line = i_line;
+        if (member < estimate.poles.size()) estimate.poles[member].i_line = static_cast<int>(listed.size());
       }
       (structural ? estimate.modes : estimate.rejected).push_back(std::move(modes[i]));
-      ++i_line;
+      listed.push_back(i);
     }
   }
+  return listed;
 }
 
 }  // namespace
@@ -199,7 +203,8 @@ FoldingConfig Identifier::folding_config(double rate_hz) const {
   return folding;
 }
 
-ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records) const {
+ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records,
+                                       FieldShapes* field) const {
   ModalEstimate estimate;
   copy_stream_facts(sums, estimate);
   estimate.peaks = spectral_peaks(sums, channels_);
@@ -230,14 +235,24 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   const Sigmas sigmas =
       state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded, poles.leaks}, lines, modes);
   estimate.degrees_of_freedom = sigmas.degrees_of_freedom;
+  std::vector<bool> along(modes.size(), false);
   if (!config_.as_published) {
     reject_out_of_phase(config_.min_mpc, sigmas, modes);
     reject_mixtures(modes);
     reject_twins(modes);
-    state_along_line(sigmas, modes);
+    along = state_along_line(sigmas, modes);
   }
   note_poles(poles.unfolded, orders, estimate);
-  list_modes(std::move(modes), lines, estimate);
+  const std::vector<std::size_t> listed = list_modes(std::move(modes), lines, estimate);
+  if (field != nullptr) {
+    std::vector<FieldLine> of_field;
+    for (const std::size_t i : listed) {
+      const std::size_t pole = lines[i].i_representative;
+      of_field.push_back({poles.observed[pole], lines[i].representative, along[i], sigmas.scatter[i].has_value(),
+                          poles.leaks[pole].has_value()});
+    }
+    *field = FieldShapes(sums, std::move(fit), folding, std::move(of_field));
+  }
   return estimate;
 }
 

@@ -12,6 +12,8 @@
 
 namespace core {
 
+class FieldShapes;  // field_shapes.h
+
 inline constexpr int kMostOrders = 15;  // of the stabilisation diagram, in steps of two
 inline constexpr int kPublishedOrder = 36;
 
@@ -43,6 +45,9 @@ class Identifier {
   // data; never returns NaN. Channels with too little record are excluded (participation.h): their components are 0 and
   // marked as unknown in ModalEstimate::channels.
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
+  // The same, and what further channels of this record need for their components of modes and rejected, in that order.
+  // Not with static regions, nor with a channel that is excluded: throws std::invalid_argument.
+  [[nodiscard]] ModalEstimate identify(const CpsdSums& sums, FieldShapes& field) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
   [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }  // witnesses excluded
@@ -50,8 +55,10 @@ class Identifier {
   [[nodiscard]] std::vector<double> undone_delay_s() const;
 
  private:
-  [[nodiscard]] ModalEstimate identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records) const;
-  [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part) const;
+  [[nodiscard]] ModalEstimate identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records,
+                                           FieldShapes* field) const;
+  [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part, FieldShapes* field) const;
+  [[nodiscard]] ModalEstimate identify(const CpsdSums& sums, FieldShapes* field) const;
   [[nodiscard]] Identifier with_channels(const std::vector<std::size_t>& kept) const;
   [[nodiscard]] std::vector<ChannelInfo> delays_as_undone() const;
   [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;

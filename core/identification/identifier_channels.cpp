@@ -1,7 +1,9 @@
 // Identification without the channels that have too little record.
 #include <algorithm>
 #include <complex>
+#include <stdexcept>
 
+#include "core/identification/field_shapes.h"
 #include "core/identification/identifier.h"
 #include "core/identification/spectral_peaks.h"
 #include "core/spectrum/select_channels.h"
@@ -43,7 +45,7 @@ Identifier Identifier::with_channels(const std::vector<std::size_t>& kept) const
   return {std::move(config), std::move(channels)};
 }
 
-ModalEstimate Identifier::identify_kept(const CpsdSums& sums, const Participation& part) const {
+ModalEstimate Identifier::identify_kept(const CpsdSums& sums, const Participation& part, FieldShapes* field) const {
   std::vector<ChannelRecord> records,
       outputs(part.records.begin(), part.records.begin() + static_cast<std::ptrdiff_t>(n_outputs()));
   std::vector<std::size_t> kept_outputs;
@@ -53,21 +55,30 @@ ModalEstimate Identifier::identify_kept(const CpsdSums& sums, const Participatio
   }
   ModalEstimate estimate;
   if (kept_outputs.empty()) {
-    estimate = identify_all(sums, part.records);
+    estimate = identify_all(sums, part.records, nullptr);
     estimate.modes.clear(), estimate.rejected.clear(), estimate.poles.clear();
     estimate.status =
         "no channel has a record to identify from: " + outputs_.front().name + ": " + outputs.front().reason;
   } else {
-    estimate = with_channels(part.kept).identify_all(select_channels(sums, part.kept), records);
+    estimate = with_channels(part.kept).identify_all(select_channels(sums, part.kept), records, field);
+    if (field != nullptr) field->renumber(part.kept);
     spread(estimate, kept_outputs, n_outputs());
   }
   estimate.channels = std::move(outputs);
   return estimate;
 }
 
-ModalEstimate Identifier::identify(const CpsdSums& sums) const {
+ModalEstimate Identifier::identify(const CpsdSums& sums, FieldShapes* field) const {
   const Participation part = participation(sums, channels_);
-  return part.all() ? identify_all(sums, part.records) : identify_kept(sums, part);
+  return part.all() ? identify_all(sums, part.records, field) : identify_kept(sums, part, field);
+}
+
+ModalEstimate Identifier::identify(const CpsdSums& sums) const { return identify(sums, nullptr); }
+
+ModalEstimate Identifier::identify(const CpsdSums& sums, FieldShapes& field) const {
+  if (n_outputs() != channels_.size()) throw std::invalid_argument("Identifier: a full field has no static region");
+  field = FieldShapes();
+  return identify(sums, &field);
 }
 
 }  // namespace core

@@ -1,5 +1,6 @@
 #include "core/identification/mode_scatter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,8 +15,9 @@ using Complex = std::complex<double>;
 // A shape with its row delays undone, and how a change of the observed pole changes it.
 class StatedShape {
  public:
-  StatedShape(const PoleOfOrder& pole, const FoldingConfig& folding, int fold_n)
-      : pole_(pole.pole), folding_(folding), n_(pole.pole.shape.size()) {
+  // The largest of the first `n_own` components is 1, and the line is theirs.
+  StatedShape(const PoleOfOrder& pole, const FoldingConfig& folding, int fold_n, std::size_t n_own)
+      : pole_(pole.pole), folding_(folding), n_(pole.pole.shape.size()), n_own_(n_own) {
     s_ = std::log(pole_.lambda) * folding.rate_hz + Complex(0.0, 2.0 * std::numbers::pi * fold_n * folding.rate_hz);
     for (std::size_t c = 0; c < n_; ++c) {
       const double delay_s = c < folding.delay_s.size() ? folding.delay_s[c] : 0.0;
@@ -23,10 +25,24 @@ class StatedShape {
       undone_.push_back(std::exp(-s_ * delay_s) / std::pow(s_, n_integrations));
       by_s_.push_back(delay_s + static_cast<double>(n_integrations) / s_);
       x_.push_back(pole_.shape[c] * undone_[c]);
+      if (c >= n_own_) continue;
       if (std::norm(x_[c]) > std::norm(x_[largest_])) largest_ = c;
       square_ += std::norm(x_[c]);
     }
-    back_ = std::conj(phase_line(x_));
+    back_ = std::conj(phase_line(std::vector<Complex>(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n_own_))));
+  }
+
+  [[nodiscard]] std::vector<Complex> components(bool along) const {
+    std::vector<Complex> out;
+    for (const Complex& x : x_) {
+      if (along) {
+        out.emplace_back((x * back_).real() / (x_[largest_] * back_).real());
+      } else {
+        const Complex part = x / x_[largest_];
+        out.push_back(s_.imag() < 0.0 ? std::conj(part) : part);
+      }
+    }
+    return out;
   }
 
   struct Change {
@@ -45,6 +61,7 @@ class StatedShape {
       const Complex own = x_[c] * back_, moved = dx[c] * back_;
       out.shape.push_back(((dx[c] - x_[c] * by_largest) / x_[largest_]).real());
       out.along.push_back((moved.real() - own.real() / most * d_most) / most);
+      if (c >= n_own_) continue;
       turn += own.real() * moved.imag(), line += own.real() * own.real(), beside += moved.imag() * moved.imag();
     }
     out.beside_line = (beside - turn * turn / line) / square_;
@@ -55,7 +72,7 @@ class StatedShape {
  private:
   const DiscretePole& pole_;
   const FoldingConfig& folding_;
-  std::size_t n_, largest_ = 0;
+  std::size_t n_, n_own_, largest_ = 0;
   Complex s_, back_;
   double square_ = 0.0;
   std::vector<Complex> undone_, by_s_, x_;
@@ -63,11 +80,17 @@ class StatedShape {
 
 }  // namespace
 
+std::vector<std::complex<double>> stated_components(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
+                                                    const FoldingConfig& folding, bool along, std::size_t n_own) {
+  return StatedShape(pole, folding, unfolded.fold_n.value_or(0), n_own).components(along);
+}
+
 std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
-                                        const FoldingConfig& folding, const std::vector<PoleChange>& changes) {
+                                        const FoldingConfig& folding, const std::vector<PoleChange>& changes,
+                                        std::size_t n_own) {
   if (changes.size() < kLeastScatterBlocks) return std::nullopt;
   const double size = std::abs(unfolded.s), zeta = -unfolded.s.real() / size;
-  const StatedShape stated(pole, folding, unfolded.fold_n.value_or(0));
+  const StatedShape stated(pole, folding, unfolded.fold_n.value_or(0), std::min(n_own, pole.pole.shape.size()));
   ModeScatter sum;
   sum.shape.assign(pole.pole.shape.size(), 0.0);
   sum.along = sum.shape;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <complex>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,6 +23,13 @@ struct ModeScatter {
 // the result is not finite.
 [[nodiscard]] std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
                                                       const FoldingConfig& folding,
-                                                      const std::vector<PoleChange>& changes);
+                                                      const std::vector<PoleChange>& changes,
+                                                      std::size_t n_own = SIZE_MAX);
+
+// The components that a mode states of a pole's observed shape, complex or along the shape's line. Here and above, the
+// largest of the first `n_own` components is 1 and the line is theirs; further ones are relative to them.
+[[nodiscard]] std::vector<std::complex<double>> stated_components(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
+                                                                  const FoldingConfig& folding, bool along,
+                                                                  std::size_t n_own);
 
 }  // namespace core

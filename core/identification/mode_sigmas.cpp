@@ -17,15 +17,6 @@ namespace {
 // integral of w(t)^2 w(t + 1/2)^2 over that of w^4 = (3/128) / (35/128).
 constexpr double kOverlapCorrelation = 3.0 / 35.0;
 
-// Factor of a variance that is estimated from blocks as if they were independent. Neighbouring blocks share the overlap
-// of their segments; with r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K
-// times the sum of their variances.
-double overlap_factor(const CpsdSums& sums, double n_groups) {
-  const double per_group = std::max(1.0, static_cast<double>(sums.n_segments) / n_groups);
-  const double r = kOverlapCorrelation / (per_group + 2.0 * kOverlapCorrelation * (per_group - 1.0));
-  return 1.0 + 2.0 * r * (n_groups - 1.0) / n_groups;
-}
-
 struct Variances {
   double frequency_hz = 0.0, damping_ratio = 0.0;
 };
@@ -71,6 +62,14 @@ void state(const ModeScatter& scatter, const Variances& spread, const Variances&
 }
 
 }  // namespace
+
+// With r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K times the sum of
+// their variances.
+double overlap_factor(const CpsdSums& sums, double n_groups) {
+  const double per_group = std::max(1.0, static_cast<double>(sums.n_segments) / n_groups);
+  const double r = kOverlapCorrelation / (per_group + 2.0 * kOverlapCorrelation * (per_group - 1.0));
+  return 1.0 + 2.0 * r * (n_groups - 1.0) / n_groups;
+}
 
 Sigmas state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
   Sigmas out{0.0, std::vector<std::optional<ModeScatter>>(lines.size())};

@@ -37,4 +37,8 @@ struct Sigmas {
 [[nodiscard]] Sigmas state_sigmas(const SigmaInputs& inputs, const std::vector<PoleCluster>& lines,
                                   std::vector<Mode>& modes);
 
+// Factor of a variance that is estimated from `n_groups` parts of the record as if they were independent: neighbours
+// share the overlap of their segments.
+[[nodiscard]] double overlap_factor(const CpsdSums& sums, double n_groups);
+
 }  // namespace core

@@ -45,12 +45,15 @@ void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>
   }
 }
 
-void state_along_line(const Sigmas& sigmas, std::vector<Mode>& modes) {
+std::vector<bool> state_along_line(const Sigmas& sigmas, std::vector<Mode>& modes) {
+  std::vector<bool> along(modes.size(), false);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     if (!is_open(modes[i]) || !is_within_chance(modes[i], sigmas.scatter[i])) continue;
+    along[i] = true;
     modes[i].shape = along_phase_line(modes[i].shape);
     modes[i].shape_std = sigmas.scatter[i]->along;
   }
+  return along;
 }
 
 }  // namespace core

@@ -15,7 +15,8 @@ namespace core {
 // ambiguous if it is folded and its MPC is below 0.85: the alias order rests on the phases.
 void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>& modes);
 
-// A shape in phase within chance is stated along its line (phase_line.h), with the sigmas of that.
-void state_along_line(const Sigmas& sigmas, std::vector<Mode>& modes);
+// A shape in phase within chance is stated along its line (phase_line.h), with the sigmas of that. Returns which ones
+// are.
+std::vector<bool> state_along_line(const Sigmas& sigmas, std::vector<Mode>& modes);
 
 }  // namespace core

@@ -93,7 +93,7 @@ class PoleChanges {
   [[nodiscard]] std::vector<std::vector<PoleChange>> of(const BlockDeviations& deviations) const {
     const Index ny = static_cast<Index>(outputs_.size()), rows = realisation_.left_map.cols();
     // One block row more than H0 has, because H1 is the same matrix without its first.
-    const Eigen::MatrixXd moved = hankel_changes(realisation_, config_, deviations, directions_);
+    const Eigen::MatrixXd moved = hankel_changes(realisation_, config_, deviations, directions_).outputs;
     const Eigen::MatrixXd by_h0 = left_times(moved.topRows(rows)), by_h1 = left_times(moved.bottomRows(rows));
     std::vector<std::vector<PoleChange>> changes(poles_.size());
     const auto column = [](const Eigen::MatrixXd& m, Index re, Index n) {
@@ -134,7 +134,7 @@ class PoleChanges {
       top[outputs_[i]] = realisation_.scale[outputs_[i]] * by.top[static_cast<Index>(i)];
     }
     const Eigen::VectorXcd shape = pole.factor * (top + realisation_.c.leftCols(n) * moved.head(n));
-    return {moved[n], {shape.begin(), shape.end()}};
+    return {moved[n], {shape.begin(), shape.end()}, moved.head(n)};
   }
 
   const Realisation& realisation_;
@@ -152,6 +152,11 @@ std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation
                                                   const std::vector<PoleOfOrder>& poles) {
   if (poles.empty() || deviations.n_blocks == 0) return std::vector<std::vector<PoleChange>>(poles.size());
   return PoleChanges(realisation, config, poles).of(deviations);
+}
+
+PoleVector pole_vector(const Realisation& realisation, const PoleOfOrder& pole) {
+  PoleResponse response(realisation, pole);
+  return response.found ? PoleVector{std::move(response.psi), response.factor} : PoleVector{};
 }
 
 double student_95(double degrees_of_freedom) noexcept {

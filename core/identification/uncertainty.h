@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -19,10 +20,11 @@ namespace core {
 // too short, because a block should span a few decay times of the slowest mode.
 inline constexpr std::size_t kLeastScatterBlocks = 2, kScatterBlocks = 10;
 
-// Change of a pole and its observed shape caused by one block.
+// Change of a pole, of its observed shape and of its vector (pole_vector()) caused by one block.
 struct PoleChange {
   std::complex<double> lambda;
   std::vector<std::complex<double>> shape;
+  Eigen::VectorXcd psi = {};
 };
 
 struct PoleOfOrder {
@@ -35,6 +37,14 @@ struct PoleOfOrder {
 [[nodiscard]] std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
                                                                 const BlockDeviations& deviations,
                                                                 const std::vector<PoleOfOrder>& poles);
+
+// Eigenvector of a pole in the realisation's coordinates; its shape is factor * c psi. Empty for a pole that is not
+// found again.
+struct PoleVector {
+  Eigen::VectorXcd psi;
+  std::complex<double> factor;
+};
+[[nodiscard]] PoleVector pole_vector(const Realisation& realisation, const PoleOfOrder& pole);
 
 // Half width of the two-sided 95 % interval in standard deviations (Student's t; between integer degrees of freedom,
 // linear in their reciprocal).

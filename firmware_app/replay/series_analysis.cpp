@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "core/spectrum/decimator.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/replay/analysis.h"
+#include "firmware_app/replay/full_field.h"
 #include "firmware_app/replay/series_channels.h"
 #include "firmware_app/replay/series_faults.h"
 #include "firmware_app/report/earlier_files.h"
@@ -26,7 +29,7 @@ constexpr std::size_t kSamplesPerReport = 1 << 17;
 constexpr double kLeastSegmentDecays = 1.5;
 
 struct SeriesSpectra {
-  core::CpsdSums sums;
+  std::shared_ptr<const core::CpsdSums> sums;  // of the accumulator that it keeps: never copied
   RunHistory history;
 };
 
@@ -36,7 +39,8 @@ SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spec
   const std::size_t n_samples = series.value.front().size();
   core::WelchConfig config = welch_config(spectrum, n_channels, series.rate_hz);
   config.gate_outliers = false;  // already done by mask_faults(), before the decimation
-  core::WelchCpsd cpsd(config);
+  const auto accumulator = std::make_shared<core::WelchCpsd>(config);
+  core::WelchCpsd& cpsd = *accumulator;
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
   RunHistory history(series.rate_hz, n_channels, 0);
@@ -51,7 +55,7 @@ SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spec
       progress(static_cast<double>(t + 1) / static_cast<double>(n_samples));
   }
   cpsd.flush();
-  return {cpsd.sums(), std::move(history)};
+  return {{accumulator, &cpsd.sums()}, std::move(history)};
 }
 
 void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core::ModalEstimate& estimate,
@@ -63,7 +67,7 @@ void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core:
   facts.title = options.head.title, facts.notes = options.head.notes;
   PictureInputs inputs;
   inputs.channels = series.channels;
-  inputs.spectrum = &spectra.sums;
+  inputs.spectrum = spectra.sums.get();
   inputs.estimate = &estimate;
   inputs.history = &spectra.history;
   inputs.unit = series.unit;
@@ -132,6 +136,19 @@ void count_outliers(const ChannelSeries& given, const std::vector<std::uint64_t>
   }
 }
 
+std::vector<double> identify_delays(const core::IdentifierConfig& identifier, const ChannelSeries& series) {
+  return core::Identifier(identifier, series.channels).undone_delay_s();
+}
+
+std::string remark_on_core(const ChannelSeries& core, std::size_t n_channels, bool is_drawn) {
+  std::string names;
+  for (const core::ChannelInfo& channel : core.channels) names += (names.empty() ? "" : ", ") + channel.name;
+  return fmt::format(
+      "modes identified from {} of {} channels ({}); the shapes of the others follow from their correlations with "
+      "these{}",
+      core.channels.size(), n_channels, names, is_drawn ? ", and the pictures show these" : "");
+}
+
 }  // namespace
 
 SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& options) {
@@ -139,6 +156,7 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   require_searchable(options.identifier.max_frequency_hz, given.rate_hz);
   ChannelSeries series = given;
   SeriesResult result;
+  std::optional<ChannelSeries> series_of_core;
   core::IdentifierConfig identifier = options.identifier;
   std::vector<std::uint64_t> n_outlying;
   if (options.mask_faults) n_outlying = mask_faults(series, result.remarks);
@@ -153,19 +171,33 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   if (choose_segment) spectrum.segment = automatic_segment(n_samples);
   result.segment = spectrum.segment;
   require_samples(series, spectrum.segment);
-  const core::Identifier identify(identifier, series.channels);
-  SeriesSpectra spectra = spectra_of(series, spectrum, options.progress);
-  result.estimate = identify.identify(spectra.sums);
+  const bool is_field = series.channels.size() > kMostTogether;
+  FieldCore core;
+  if (is_field) core = choose_core(series, identifier.references), identifier.references = core.references;
+  const ChannelSeries& together = is_field ? series_of_core.emplace(channels_of(series, core.channels)) : series;
+  const core::Identifier identify(identifier, together.channels);
+  core::FieldShapes field;
+  const auto identified = [&](const core::CpsdSums& sums) {
+    return is_field ? identify.identify(sums, field) : identify.identify(sums);
+  };
+  SeriesSpectra spectra = spectra_of(together, spectrum, options.progress);
+  result.estimate = identified(*spectra.sums);
   while (choose_segment && should_double(result, n_samples)) {
     result.segment = spectrum.segment *= 2;
-    spectra = spectra_of(series, spectrum, options.progress);
-    result.estimate = identify.identify(spectra.sums);
+    spectra = spectra_of(together, spectrum, options.progress);
+    result.estimate = identified(*spectra.sums);
   }
   if (choose_segment) {
     result.remarks.push_back(
         fmt::format("segment of {} samples ({:.4g} s)", spectrum.segment, spectrum.segment / series.rate_hz));
   }
   result.estimate.final = true;
+  if (!options.report_directory.empty()) draw(together, spectra, result.estimate, options);
+  if (is_field) {
+    const auto sums_of = [&](const ChannelSeries& some) { return spectra_of(some, spectrum, {}).sums; };
+    add_field(series, core, field, identify_delays(identifier, series), sums_of, result.estimate);
+    result.remarks.push_back(remark_on_core(together, series.channels.size(), !options.report_directory.empty()));
+  }
   result.channels = series.channels;
   count_outliers(given, n_outlying, result);
   if (series.channels.size() == 1) {
@@ -173,10 +205,9 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
         "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");
   }
   remark_on_segment(result);
-  const int base = base_channel(series.channels);
+  const int base = base_channel(together.channels);
   const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;
-  if (base >= 0) result.response = core::response_peaks(spectra.sums, base, top_hz);
-  if (!options.report_directory.empty()) draw(series, spectra, result.estimate, options);
+  if (base >= 0) result.response = core::response_peaks(*spectra.sums, base, top_hz);
   return result;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every mode that a record holds, and the intervals stated: drawn records of the paper's experiment. One line a figure.
-#   tools/figures/trust.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 2 3 4 8 (default: all)
+#   tools/figures/trust.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 2 3 4 7 8 (default: all)
 # --quick takes ten seeds of 60 and 120 s. Tables stay in build/figures/trust. Records: base shaken with a white motion
 # ("table") or with one that has peaks of its own ("coloured"), or wind on a fixed base ("wind"); readout 0.4 to 1 frame;
 # the recorded hover or modelled drift with spectral tails.
@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/trust.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 2 3 4 8
+all_or_named 1 2 3 4 7 8
 seeds=100 durations=(60 120 300)
 [ -z "$quick" ] || seeds=10 durations=(60 120)
 out=build/figures/trust
@@ -123,6 +123,28 @@ figure_4() {
       "drawn storeys, 120 s, $share of the frames lost, $([ "$kind" = burst ] && echo "in bursts of 1-10 frames" || echo random), $seeds seeds" \
       "$n > 0 && $kept >= 0.97 * $n"
   done < <(grep '^trust-losses	' "$out/losses.tsv")
+}
+
+# --- 7: many channels -------------------------------------------------------------------------------------------------------
+field() { /usr/bin/python3 -B tools/figures/full_field.py "$@"; }
+# exponent COLUMN: of what grows from 30 to 1000 channels in $out/field.tsv (2 seconds, 3 MB).
+exponent() { awk -v c="$1" '$1 == 30 { a = $c } $1 == 1000 { b = $c } END { printf "%.2f", log(b / a) / log(1000 / 30) }' "$out/field.tsv"; }
+figure_7() {
+  local n seconds mb modes beside mac rms what="300 s at 30 Hz, 12 modes"
+  if ! /usr/bin/python3 -c 'import scipy.io' 2>/dev/null; then line 7 SKIP "no python3-scipy" "exponent (<= 1.1 beyond 30)" "many channels" && return; fi
+  : >"$out/field.tsv"
+  for n in 10 30 100 300 1000; do
+    [ -e "$out/field_$n.mat" ] || field make "$n" "$first_seed" "$out/field_$n.mat"
+    read -r seconds mb < <(field run "$out/field_$n.json" "$bin/hovermodal" identify --series "$out/field_$n.mat" --json --quiet)
+    read -r modes beside mac rms < <(field score "$out/field_$n.json" "$n")
+    echo "$n $seconds $mb" >>"$out/field.tsv"
+    line 7 beside "$seconds s, $mb MB; $modes modes, $beside others, least MAC $mac, error $rms sigma rms" "time, peak memory; shapes' error against the exact solution" "$n channels, $what, file included"
+    read -r seconds mb < <(field run /dev/null /usr/bin/python3 -B tools/figures/full_field.py numpy "$out/field_$n.mat" "$out/numpy_$n.json")
+    read -r modes beside mac rms < <(field score "$out/numpy_$n.json" "$n")
+    line 7 beside "$seconds s, $mb MB; $modes modes, $beside others, least MAC $mac, no sigma" "beside NumPy/SciPy doing the same" "$n channels, $what, file included"
+  done
+  judge 7.time "exponent $(exponent 2)" "exponent (<= 1.1 beyond 30)" "time from 30 to 1000 channels" "$(exponent 2) <= 1.1"
+  judge 7.memory "exponent $(exponent 3)" "exponent (<= 1.1 beyond 30)" "peak memory from 30 to 1000 channels" "$(exponent 3) <= 1.1"
 }
 
 # --- 8: the structure over two years -------------------------------------------------------------------------------------

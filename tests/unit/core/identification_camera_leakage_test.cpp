@@ -56,6 +56,8 @@ struct Filmed {
   }
   [[nodiscard]] ModalEstimate identified(bool with_witness) const {
     std::vector<ChannelInfo> channels = SimulatedStructure{}.channels();
+    channels[0].is_base =
+        false;  // given a base, the static region is an input beside it (identification_given_inputs_test)
     if (with_witness) {
       channels.emplace_back();
       channels.back().name = "wall";

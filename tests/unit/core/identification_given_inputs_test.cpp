@@ -93,7 +93,7 @@ TEST(GivenInputs, ChangesAreTheDerivativeOfARefit) {
   std::vector<PoleOfOrder> poles;
   for (const DiscretePole& pole : poles_of_order(at, kOrder)) poles.push_back({kOrder, pole});
   const auto changes = pole_changes(at, config, deviation, poles);
-  const double eps = 1e-6;
+  const double eps = 1e-10;  // with larger ones the weighted matrices change beyond first order
   ASSERT_EQ(realise(test_support::mixed_correlations(r, s, eps), config, moved), EraStatus::kOk);
   const std::vector<DiscretePole> later = poles_of_order(moved, kOrder);
   for (std::size_t p = 0; p < poles.size(); ++p) {

@@ -75,6 +75,21 @@ TEST(PhaseVerdict, ChanceIsNoExcuseWhereTheFrequencyIsUnknown) {
   EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
 }
 
+TEST(PhaseVerdict, TheAliasOrderOfAFoldedModeNeedsPhases) {
+  std::vector<Mode> modes{mode_of(bent(0.2))};
+  ASSERT_GT(modes[0].mpc, 0.8);
+  ASSERT_LT(modes[0].mpc, 0.85);
+  modes[0].fold_margin = 0.6;
+  reject_out_of_phase(0.8, chance_of(1e-4), modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kStructural) << "not folded";
+  modes[0].fold_n = -1;
+  std::vector<Mode> again = modes;
+  reject_out_of_phase(0.8, chance_of(1e-4), modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kAmbiguous);
+  reject_out_of_phase(0.8, chance_of(0.1), again);
+  EXPECT_EQ(again[0].verdict, Verdict::kStructural) << "within chance";
+}
+
 TEST(PhaseVerdict, WithoutSigmaMpcDecides) {
   std::vector<Mode> modes{mode_of(bent(0.5)), mode_of(bent(0.05))};
   reject_out_of_phase(0.8, {0.0, {std::nullopt, std::nullopt}}, modes);

@@ -172,9 +172,6 @@ TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
   EXPECT_EQ(judged(cluster).fold_margin, 0.6);
   cluster.representative.fold_margin = 0.05;
   EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
-  cluster.representative.fold_margin = 0.6;
-  cluster.representative.mpc = 0.82;
-  EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
 }
 
 TEST(Verdict, AShakingCameraBeyondTheModesIsNoMode) {

@@ -45,6 +45,8 @@ constexpr const char* kHelp =
     "  hovermodal identify --series a.csv b.csv c.csv --rate-hz 256 --reference ref_x ref_y --merge --report out\n"
     "      set-ups with moved sensors, joined by the two that stayed\n"
     "  hovermodal identify --series rig.uff --base floor    # or a MAT file: series are its longest arrays\n"
+    "  hovermodal identify --series field.mat --rate-hz 30 --json\n"
+    "      hundreds of channels: the modes from twelve of them, which are stated, the shapes of all\n"
     "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
     "empty cells are missing samples; a column t_s (seconds) or frame shows gaps; # lines are comments.\n"
     "Or a universal file with time responses (data set 58), or a MAT file of version 5 (`rate_hz` or `fs`, `unit`).";
