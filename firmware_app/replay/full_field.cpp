@@ -194,7 +194,7 @@ void add_field(const ChannelSeries& series, const FieldCore& core, const core::F
     std::vector<core::ChannelInfo> infos;
     std::vector<double> delays_s;
     for (const std::size_t c : some) infos.push_back(series.channels[c]), delays_s.push_back(delay_s[c]);
-    const auto found = field.of(*sums_of(channels_of(series, all)), infos, delays_s);
+    const auto found = field.of(sums_of(channels_of(series, all)), infos, delays_s);
     for (std::size_t line = 0; line < modes.size(); ++line) modes[line].take(found[line], some);
   }
   for (WideMode& mode : modes) mode.finish();

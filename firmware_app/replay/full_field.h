@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "core/identification/field_shapes.h"
@@ -31,7 +30,7 @@ struct FieldCore {
 
 [[nodiscard]] ChannelSeries channels_of(const ChannelSeries& series, const std::vector<std::size_t>& channels);
 
-using SumsOf = std::function<std::shared_ptr<const core::CpsdSums>(const ChannelSeries&)>;
+using SumsOf = std::function<const core::CpsdSums&(const ChannelSeries&)>;  // valid until the next call
 
 // Adds the components of all other channels to an estimate of the core's; afterwards its shapes, and its channels, are
 // those of `series`. sums_of: the sums of a series, with the same segments as the core's. A component that the

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -28,35 +27,66 @@ constexpr std::size_t kSamplesPerReport = 1 << 17;
 // In time constants 1 / (zeta w) of the free decay: a shorter segment biases the damping (core/spectrum/METHOD.md).
 constexpr double kLeastSegmentDecays = 1.5;
 
-struct SeriesSpectra {
-  std::shared_ptr<const core::CpsdSums> sums;  // of the accumulator that it keeps: never copied
-  RunHistory history;
-};
-
-SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spectrum,
-                         const std::function<void(double)>& progress) {
-  const std::size_t n_channels = series.channels.size();
-  const std::size_t n_samples = series.value.front().size();
-  core::WelchConfig config = welch_config(spectrum, n_channels, series.rate_hz);
+core::WelchConfig series_config(const ChannelSeries& series, const SpectrumConfig& spectrum) {
+  core::WelchConfig config = welch_config(spectrum, series.channels.size(), series.rate_hz);
   config.gate_outliers = false;  // already done by mask_faults(), before the decimation
-  const auto accumulator = std::make_shared<core::WelchCpsd>(config);
-  core::WelchCpsd& cpsd = *accumulator;
+  return config;
+}
+
+// on_sample(t, values) after each of them.
+template <class OnSample>
+void feed(const ChannelSeries& series, core::WelchCpsd& cpsd, const OnSample& on_sample) {
+  const std::size_t n_channels = series.channels.size(), n_samples = series.value.front().size();
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
-  RunHistory history(series.rate_hz, n_channels, 0);
   for (std::size_t t = 0; t < n_samples; ++t) {
     for (std::size_t c = 0; c < n_channels; ++c) {
       value[c] = series.value[c][t];
       seen[c] = std::isfinite(value[c]) ? 1 : 0;
     }
     (void)cpsd.push(value, seen);
+    on_sample(t, value);
+  }
+  cpsd.flush();
+}
+
+struct SeriesSpectra {
+  core::CpsdSums sums;
+  RunHistory history;
+};
+
+SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spectrum,
+                         const std::function<void(double)>& progress) {
+  const std::size_t n_samples = series.value.front().size();
+  core::WelchCpsd cpsd(series_config(series, spectrum));
+  RunHistory history(series.rate_hz, series.channels.size(), 0);
+  feed(series, cpsd, [&](std::size_t t, const std::vector<double>& value) {
     history.add(t, value);
     if (progress && (t + 1) % kSamplesPerReport == 0)
       progress(static_cast<double>(t + 1) / static_cast<double>(n_samples));
-  }
-  cpsd.flush();
-  return {{accumulator, &cpsd.sums()}, std::move(history)};
+  });
+  return {cpsd.sums(), std::move(history)};
 }
+
+// Sums of one group of channels after the other, in the same memory where a group has as many as the one before it.
+class GroupSpectra {
+ public:
+  explicit GroupSpectra(const SpectrumConfig& spectrum) : spectrum_(spectrum) {}
+
+  const core::CpsdSums& of(const ChannelSeries& group) {
+    if (cpsd_ && cpsd_->sums().n_channels == static_cast<int>(group.channels.size())) {
+      cpsd_->restart(group.rate_hz);
+    } else {
+      cpsd_.emplace(series_config(group, spectrum_));
+    }
+    feed(group, *cpsd_, [](std::size_t, const std::vector<double>&) {});
+    return cpsd_->sums();
+  }
+
+ private:
+  const SpectrumConfig& spectrum_;
+  std::optional<core::WelchCpsd> cpsd_;
+};
 
 void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core::ModalEstimate& estimate,
           const SeriesOptions& options) {
@@ -67,7 +97,7 @@ void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core:
   facts.title = options.head.title, facts.notes = options.head.notes;
   PictureInputs inputs;
   inputs.channels = series.channels;
-  inputs.spectrum = spectra.sums.get();
+  inputs.spectrum = &spectra.sums;
   inputs.estimate = &estimate;
   inputs.history = &spectra.history;
   inputs.unit = series.unit;
@@ -181,11 +211,11 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
     return is_field ? identify.identify(sums, field) : identify.identify(sums);
   };
   SeriesSpectra spectra = spectra_of(together, spectrum, options.progress);
-  result.estimate = identified(*spectra.sums);
+  result.estimate = identified(spectra.sums);
   while (choose_segment && should_double(result, n_samples)) {
     result.segment = spectrum.segment *= 2;
     spectra = spectra_of(together, spectrum, options.progress);
-    result.estimate = identified(*spectra.sums);
+    result.estimate = identified(spectra.sums);
   }
   if (choose_segment) {
     result.remarks.push_back(
@@ -194,7 +224,8 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   result.estimate.final = true;
   if (!options.report_directory.empty()) draw(together, spectra, result.estimate, options);
   if (is_field) {
-    const auto sums_of = [&](const ChannelSeries& some) { return spectra_of(some, spectrum, {}).sums; };
+    GroupSpectra groups(spectrum);
+    const auto sums_of = [&](const ChannelSeries& group) -> const core::CpsdSums& { return groups.of(group); };
     add_field(series, core, field, identify_delays(identifier, series), sums_of, result.estimate);
     result.remarks.push_back(remark_on_core(together, series.channels.size(), !options.report_directory.empty()));
   }
@@ -207,7 +238,7 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   remark_on_segment(result);
   const int base = base_channel(together.channels);
   const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;
-  if (base >= 0) result.response = core::response_peaks(*spectra.sums, base, top_hz);
+  if (base >= 0) result.response = core::response_peaks(spectra.sums, base, top_hz);
   return result;
 }
 
