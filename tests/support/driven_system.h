@@ -35,22 +35,7 @@ struct DrivenSystem {
     }
   }
 
-  [[nodiscard]] core::Correlations correlations(int max_lag) const {
-    const auto n = static_cast<int>(C.rows());
-    core::Correlations out(n, max_lag);
-    Eigen::MatrixXd power = Eigen::MatrixXd::Identity(A.rows(), A.cols());
-    for (int lag = 0; lag <= max_lag; ++lag) {
-      const Eigen::MatrixXd R = C * power * P * C.transpose();
-      for (int i = 0; i < n; ++i) {
-        for (int j = i; j < n; ++j) {
-          out.set(i, j, lag, R(i, j), R(i, j));
-          out.set(i, j, -lag, R(j, i), R(j, i));
-        }
-      }
-      power *= A;
-    }
-    return out;
-  }
+  [[nodiscard]] core::Correlations correlations(int max_lag) const { return exact_correlations(A, C, P, max_lag); }
 };
 
 }  // namespace test_support

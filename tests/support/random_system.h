@@ -12,6 +12,25 @@
 
 namespace test_support {
 
+// Correlations of the outputs y = C x of x' = A x + w with the state covariance P.
+inline core::Correlations exact_correlations(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C,
+                                             const Eigen::MatrixXd& P, int max_lag) {
+  const auto n = static_cast<int>(C.rows());
+  core::Correlations out(n, max_lag);
+  Eigen::MatrixXd power = Eigen::MatrixXd::Identity(A.rows(), A.cols());
+  for (int lag = 0; lag <= max_lag; ++lag) {
+    const Eigen::MatrixXd R = C * power * P * C.transpose();  // E[y(t + lag) y(t)']
+    for (int i = 0; i < n; ++i) {
+      for (int j = i; j < n; ++j) {
+        out.set(i, j, lag, R(i, j), R(i, j));
+        out.set(i, j, -lag, R(j, i), R(j, i));
+      }
+    }
+    power *= A;
+  }
+  return out;
+}
+
 // A stable linear system driven by white noise, with the exact correlations of its outputs: x' = A x + w, y = C x.
 // One complex pole pair per mode; shapes are complex and random.
 struct RandomSystem {
@@ -49,22 +68,7 @@ struct RandomSystem {
     P = stationary_covariance(random);
   }
 
-  [[nodiscard]] core::Correlations correlations(int max_lag) const {
-    const auto n = static_cast<int>(C.rows());
-    core::Correlations out(n, max_lag);
-    Eigen::MatrixXd power = Eigen::MatrixXd::Identity(A.rows(), A.cols());
-    for (int lag = 0; lag <= max_lag; ++lag) {
-      const Eigen::MatrixXd R = C * power * P * C.transpose();  // E[y(t + lag) y(t)']
-      for (int i = 0; i < n; ++i) {
-        for (int j = i; j < n; ++j) {
-          out.set(i, j, lag, R(i, j), R(i, j));
-          out.set(i, j, -lag, R(j, i), R(j, i));
-        }
-      }
-      power *= A;
-    }
-    return out;
-  }
+  [[nodiscard]] core::Correlations correlations(int max_lag) const { return exact_correlations(A, C, P, max_lag); }
 
  private:
   // P = A P A' + Q by doubling; Q random and positive definite.

@@ -120,6 +120,24 @@ TEST(Verdict, ABaseThatMovesAlongIsAnInputPeak) {
   EXPECT_EQ(judged(cluster, {50.0, 5.0}).verdict, Verdict::kInputPeak) << "beyond doubt whatever the response says";
 }
 
+TEST(Verdict, AMeasuredInputsPeakIsFollowedAlikeAndCoherentlyWithoutAResonance) {
+  VerdictRules rules;
+  rules.base_is_input = true;
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.0, 0.9, 0.95, 1.0};
+  BaseResponse peak{.gain = 1.1, .gain_beside = 1.1, .coherence = 0.9};
+  const auto judged_so = [&] { return judge(cluster, peak, channels(), kOrders, rules).verdict; };
+  EXPECT_EQ(judged_so(), Verdict::kInputPeak);
+  peak.coherence = 0.3;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base does not explain it";
+  peak.coherence = 0.9, peak.gain = 8.0;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the structure answers";
+  peak.gain = 1.1, cluster.representative.shape = {0.0, 0.2, 0.6, 1.0};
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the channels move against one another";
+  rules.base_is_input = false, cluster.representative.shape = {0.0, 0.9, 0.95, 1.0};
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base is an output: its share decides";
+}
+
 TEST(Verdict, ASmallBaseShareIsDecidedByTheAnswerToTheBase) {
   PoleCluster cluster = flawless();
   cluster.representative.shape = {0.2, 0.4, 0.8, 1.0};
