@@ -12,6 +12,7 @@
 #include "tools/validate/footage.h"
 #include "tools/validate/geometry.h"
 #include "tools/validate/identification.h"
+#include "tools/validate/lines_beside_modes.h"
 #include "tools/validate/peaks.h"
 #include "tools/validate/render.h"
 #include "tools/validate/signatures.h"
@@ -172,6 +173,8 @@ constexpr std::array kChecks{
     Check{"trust-modes", "every mode of a record, and the intervals stated", geometry<print_trust_modes>, kFlights},
     Check{"trust-camera", "the modes of a record under a shaking camera, beside those under a still one",
           geometry<print_trust_camera>, kFlights},
+    Check{"trust-lines", "lines of a machine beside a mode, and of the rotors", geometry<print_lines_beside_modes>,
+          kFlights},
     Check{"trust-losses", "the modes of a record that losses of frames hide", geometry<print_trust_losses>,
           kRecords | kDuration},
     Check{"changes-flights", "thirty flights over two years, one storey loses --strength of its stiffness; in --report",
