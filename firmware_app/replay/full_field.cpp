@@ -1,5 +1,7 @@
 #include "firmware_app/replay/full_field.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +13,7 @@ namespace {
 constexpr std::size_t kCoreChannels = 12, kMostReferences = 6;
 constexpr std::size_t kTogether = 8;     // further channels whose spectra are formed at once, beside the references
 constexpr double kLeastComplete = 0.98;  // share of the samples that a channel of the core should have
+constexpr double kLeastSeen = 0.3;       // with less a channel does not take part (core/identification/participation.h)
 
 // First differences; 0 where a sample is missing.
 std::vector<double> differences(const std::vector<double>& value) {
@@ -45,6 +48,7 @@ class Pivoting {
   }
 
   void choose(std::size_t c) {
+    if (left_[c] < 0.0) return;  // chosen before
     std::vector<double> own = differences(series_.value[c]);
     for (const auto& axis : axes_) {
       const double part = inner(axis, own);
@@ -171,7 +175,12 @@ void add_field(const ChannelSeries& series, const FieldCore& core, const core::F
     for (core::Mode& mode : *list) modes.emplace_back(mode, core, n);
   }
   std::vector<core::ChannelRecord> records(n);
-  for (std::size_t c = 0; c < n; ++c) records[c].seen = seen_share(series.value[c]);
+  for (std::size_t c = 0; c < n; ++c) {
+    records[c].seen = seen_share(series.value[c]);
+    if (records[c].seen >= kLeastSeen) continue;
+    records[c].takes_part = false;
+    records[c].reason = fmt::format("seen in {:.0f} % of the record only", 100.0 * records[c].seen);
+  }
   for (std::size_t i = 0; i < core.channels.size(); ++i) records[core.channels[i]] = estimate.channels[i];
   estimate.channels = std::move(records);
   for (core::SpectralPeak& peak : estimate.peaks) {
@@ -182,7 +191,8 @@ void add_field(const ChannelSeries& series, const FieldCore& core, const core::F
 
   std::vector<std::size_t> further;
   for (std::size_t c = 0; c < n; ++c) {
-    if (!std::binary_search(core.channels.begin(), core.channels.end(), c)) further.push_back(c);
+    const bool in_core = std::binary_search(core.channels.begin(), core.channels.end(), c);
+    if (!in_core && estimate.channels[c].takes_part) further.push_back(c);
   }
   for (std::size_t first = 0; first < further.size(); first += kTogether) {
     const std::vector<std::size_t> some(

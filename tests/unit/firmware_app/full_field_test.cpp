@@ -103,6 +103,16 @@ TEST(FullField, AChannelWithManyGapsIsNotInTheCore) {
   EXPECT_NEAR(result.estimate.modes[0].shape[39].real(), 1.0, 0.05);
 }
 
+TEST(FullField, AChannelThatIsHardlySeenIsUnknownAndItsNeighboursAreNot) {
+  ChannelSeries series = row_of(40);
+  for (std::size_t t = 600; t < series.value[20].size(); ++t) series.value[20][t] = std::nan("");
+  const SeriesResult result = identify_series(series, {});
+  ASSERT_EQ(result.estimate.modes.size(), 3U);
+  EXPECT_FALSE(result.estimate.channels[20].takes_part);
+  EXPECT_THAT(result.estimate.channels[20].reason, HasSubstr("10 %"));
+  EXPECT_NEAR(result.estimate.modes[0].shape[21].real(), true_component(0, 21, 40), 0.05);
+}
+
 TEST(FullField, AShortRecordHasShapesOfAllChannelsOrNone) {
   ChannelSeries series = row_of(30);
   for (auto& values : series.value) values.resize(600);
