@@ -18,7 +18,8 @@ using Eigen::Ref;
 constexpr Index kTileRows = 96;
 constexpr Index kTileInner = 32;
 constexpr Index kStripColumns = 24;
-constexpr Index kLeastColumns = 8;  // with fewer columns: column by column
+constexpr Index kPackedColumns = 512;  // of b, copied at once
+constexpr Index kLeastColumns = 8;     // with fewer columns: column by column
 
 [[gnu::always_inline]] inline void add_columns(double* __restrict c0, double* __restrict c1, const double* __restrict a,
                                                Index lda, const double* b0, const double* b1, Index rows, Index inner) {
@@ -108,7 +109,10 @@ bool factor_columns(Ref<MatrixXd> m) {
 }  // namespace
 
 void add_product(Ref<MatrixXd> c, double factor, const Ref<const MatrixXd>& a, const Ref<const MatrixXd>& b) {
-  add_packed(c, a, factor * b);
+  for (Index j = 0; j < b.cols(); j += kPackedColumns) {
+    const Index width = std::min(kPackedColumns, b.cols() - j);
+    add_packed(c.middleCols(j, width), a, factor * b.middleCols(j, width));
+  }
 }
 
 void add_product_transposed(Ref<MatrixXd> c, double factor, const Ref<const MatrixXd>& a,

@@ -13,9 +13,18 @@ double product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Index 
   return a.middleCols(from, count).cwiseProduct(b.middleCols(from, count)).sum();
 }
 
+std::vector<const Eigen::MatrixXd*> pointers_to(std::span<const Eigen::MatrixXd> fields) {
+  std::vector<const Eigen::MatrixXd*> out;
+  for (const Eigen::MatrixXd& field : fields) out.push_back(&field);
+  return out;
+}
+
 }  // namespace
 
-BlockEstimates::BlockEstimates(const std::vector<Eigen::MatrixXd>& fields, const Eigen::MatrixXd& residual) {
+BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual)
+    : BlockEstimates(pointers_to(fields), residual) {}
+
+BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd* const> fields, const Eigen::MatrixXd& residual) {
   const auto n = static_cast<Eigen::Index>(fields.size());
   normal_sum_ = Eigen::MatrixXd::Zero(n, n);
   right_sum_ = Eigen::VectorXd::Zero(n);
@@ -23,10 +32,10 @@ BlockEstimates::BlockEstimates(const std::vector<Eigen::MatrixXd>& fields, const
     Eigen::MatrixXd normal(n, n);
     Eigen::VectorXd right(n);
     for (Eigen::Index p = 0; p < n; ++p) {
-      const Eigen::MatrixXd& field = fields[static_cast<std::size_t>(p)];
+      const Eigen::MatrixXd& field = *fields[static_cast<std::size_t>(p)];
       right(p) = product(field, residual, block);
       for (Eigen::Index q = 0; q <= p; ++q)
-        normal(p, q) = normal(q, p) = product(field, fields[static_cast<std::size_t>(q)], block);
+        normal(p, q) = normal(q, p) = product(field, *fields[static_cast<std::size_t>(q)], block);
     }
     normal_sum_ += normal, right_sum_ += right;
     normal_.push_back(std::move(normal)), right_.push_back(std::move(right));

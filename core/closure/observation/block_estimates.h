@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace core::closure {
@@ -11,7 +12,8 @@ class BlockEstimates {
  public:
   static constexpr Eigen::Index kBlocks = 10;
 
-  BlockEstimates(const std::vector<Eigen::MatrixXd>& fields, const Eigen::MatrixXd& residual);
+  BlockEstimates(std::span<const Eigen::MatrixXd* const> fields, const Eigen::MatrixXd& residual);
+  BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual);
 
   [[nodiscard]] Eigen::VectorXd values() const;
   // The larger, parameter by parameter, of two: that of white noise of unit variance, and that of the values without

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <complex>
+#include <span>
 
 #include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
@@ -12,8 +13,9 @@ namespace core::closure {
 namespace {
 
 constexpr Eigen::Index kParts = 5;
-constexpr Eigen::Index kSharedBins = 4;  // bins of the padded spectrum that share noise: in one part
-constexpr double kMostRungs = 0.6;       // of the degrees of freedom: more is a pattern of all rungs
+constexpr std::size_t kOrdersAtOnce = 64;  // all cosines of a band take four times as much memory as the residual
+constexpr Eigen::Index kSharedBins = 4;    // bins of the padded spectrum that share noise: in one part
+constexpr double kMostRungs = 0.6;         // of the degrees of freedom: more is a pattern of all rungs
 
 Eigen::MatrixXcd one_sided(const Eigen::MatrixXd& residual) {
   const int n_fft = row_fft_size(residual);
@@ -78,20 +80,25 @@ PatternBeside pattern_beside(const PointMotionModel& model, const Eigen::VectorX
 HeldOut::HeldOut(const PointMotionModel& model, double rate_hz)
     : rungs_(rate_hz),
       band_(model.band()),
-      cosines_(model.cosines()),
+      orders_(rungs_.orders(model.n_frames(), band_)),
       high_(model.q_high()),
       low_(model.q_low()),
-      within_share_(static_cast<double>(cosines_.cols()) / static_cast<double>(cosines_.rows())),
-      n_values_(static_cast<double>(high_.n_values()) * static_cast<double>(cosines_.rows())),
-      n_frames_(static_cast<double>(cosines_.rows())) {}
+      within_share_(static_cast<double>(orders_.size()) / static_cast<double>(model.n_frames())),
+      n_values_(static_cast<double>(high_.n_values()) * static_cast<double>(model.n_frames())),
+      n_frames_(static_cast<double>(model.n_frames())) {}
 
 double HeldOut::share_of(RungSet band) const {
   return std::min(rungs_.width_hz(band) / rungs_.to_hz(rungs_.size() - 1), 1.0);
 }
 
 double HeldOut::squares(const Eigen::MatrixXd& residual) const {
-  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(residual.rows(), cosines_.cols());
-  add_product(low, 1.0, residual, cosines_);
+  const std::span<const Eigen::Index> orders(orders_);
+  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(residual.rows(), static_cast<Eigen::Index>(orders.size()));
+  for (std::size_t from = 0; from < orders.size(); from += kOrdersAtOnce) {
+    const std::size_t count = std::min(kOrdersAtOnce, orders.size() - from);
+    add_product(low.middleCols(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(count)), 1.0, residual,
+                Rungs::cosines(residual.cols(), orders.subspan(from, count)));
+  }
   const Eigen::MatrixXd within = gram(low);
   return high_.squares(gram(residual) - within) + low_.squares(within);
 }

@@ -79,8 +79,8 @@ class HeldOut {
   [[nodiscard]] RungSet strongest(const ResidualMoments& moments) const;
 
   Rungs rungs_;
-  RungSet band_;  // of the model's added columns
-  const Eigen::MatrixXd& cosines_;
+  RungSet band_;                      // of the model's added columns
+  std::vector<Eigen::Index> orders_;  // of the band's cosines
   LeaveOnePointOut high_, low_;
   double within_share_, n_values_, n_frames_;
 };

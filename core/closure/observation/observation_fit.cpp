@@ -36,6 +36,7 @@ ObservationFit::ObservationFit(ObservationRecord record)
       held_out_(std::make_unique<HeldOut>(model_, record_.rate_hz)),
       predicted_px_(measured_) {
   sigma_px_ = rms(record_.sigma_px);
+  record_.u_px.resize(record_.n_frames(), 0), record_.v_px.resize(record_.n_frames(), 0);  // they are in measured_
 }
 
 ObservationFit::Effects ObservationFit::copy_effects() const {
@@ -82,8 +83,9 @@ double ObservationFit::freedom_beside() const {
 }
 
 void ObservationFit::fill_missing() {
+  const bool has_error = tracker_error_px_.size() > 0;
   for (const auto& [row, frame] : missing_)
-    measured_(row, frame) = predicted_px_(row, frame) + tracker_error_px_(row, frame);
+    measured_(row, frame) = predicted_px_(row, frame) + (has_error ? tracker_error_px_(row, frame) : 0.0);
 }
 
 void ObservationFit::sum_constants() {
@@ -108,6 +110,7 @@ Eigen::MatrixXd ObservationFit::corrected(bool solved) {
   tracker_error_px_ = positions;
   correct(CorrectionStage::kTracker);
   tracker_error_px_ -= positions;
+  if (tracker_error_px_.isZero(0.0)) tracker_error_px_.resize(0, 0);
   undo_optics(view, positions);
   if (solved) remove_second_orders(positions);
   return positions;
@@ -236,7 +239,8 @@ void ObservationFit::solve_once() {
     if (refined || rotates) set_places(positions.rowwise().mean());
     model_.set_drift(later_in_readout(record_, predicted_px_));
     model_.solve(positions, readout_frames_, kReadoutRounds);
-    predicted_px_ = measured_ - model_.residual_px() - tracker_error_px_;
+    predicted_px_ = measured_ - model_.residual_px();
+    if (tracker_error_px_.size() > 0) predicted_px_ -= tracker_error_px_;
     if (round == rounds) break;
     fill_missing();
     for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->refine(view(), amplitude(i));

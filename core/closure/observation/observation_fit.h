@@ -62,7 +62,7 @@ class ObservationFit {
   void remove_second_orders(Eigen::MatrixXd& positions) const;
   bool refine_constants();  // false: no constant changed by more than a twentieth of its sigma
 
-  ObservationRecord record_;
+  ObservationRecord record_;                                    // without positions
   std::vector<std::pair<Eigen::Index, Eigen::Index>> missing_;  // row, frame
   Eigen::MatrixXd measured_;  // 2 points x frames, px; missing ones predicted by the model
   PointMotionModel model_;
@@ -72,7 +72,7 @@ class ObservationFit {
   LensCoefficients lens_;
   int n_correlations_ = 0;            // measured so far
   Eigen::MatrixXd predicted_px_;      // in the raw image, without the tracker's errors
-  Eigen::MatrixXd tracker_error_px_;  // of the adopted effects
+  Eigen::MatrixXd tracker_error_px_;  // of the adopted effects; empty: none
 };
 
 }  // namespace core::closure

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/effects/catalogue.h"
@@ -23,13 +24,13 @@ RecordCheck without_fault(const ObservationRecord& record) {
   throw std::invalid_argument(text);
 }
 
-ObservationRecord checked(const ObservationRecord& record, std::vector<std::string>& warnings) {
+ObservationRecord checked(ObservationRecord record, std::vector<std::string>& warnings) {
   RecordCheck check = without_fault(record);
-  ObservationRecord usable = select_points(record, check.points);
+  ObservationRecord usable = select_points(std::move(record), check.points);
   warnings = screen_points(usable);
   if (!warnings.empty()) {
     check = without_fault(usable);
-    usable = select_points(usable, check.points);
+    usable = select_points(std::move(usable), check.points);
   }
   warnings.insert(warnings.end(), check.warnings.begin(), check.warnings.end());
   return usable;
@@ -46,8 +47,8 @@ std::vector<const Effect*> all_of(const EffectList<Effect>& effects) {
 
 }  // namespace
 
-ObservationLevel::ObservationLevel(const ObservationRecord& record)
-    : fit_(checked(record, warnings_)),
+ObservationLevel::ObservationLevel(ObservationRecord record)
+    : fit_(checked(std::move(record), warnings_)),
       catalogue_(all_of(observation_effects())),
       absorbed_(all_of(absorbed_effects())),
       scores_(fit_, catalogue_) {}
@@ -58,8 +59,8 @@ void ObservationLevel::forget(const std::string& effect) {
 }
 
 LevelFit ObservationLevel::fit() {
+  scores_.begin();  // the former candidates' fields are not kept while the model is solved
   fit_.solve();
-  scores_.begin();
   modes_.reset();
   found_.reset();
   return scores_.quality();

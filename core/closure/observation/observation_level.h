@@ -24,7 +24,7 @@ class ObservationLevel final : public ClosureLevel {
 
   // Points that do not move with their region are excluded first (point_screening.h). Throws std::invalid_argument with
   // the faults reported by check_record().
-  explicit ObservationLevel(const ObservationRecord& record);
+  explicit ObservationLevel(ObservationRecord record);
 
   // Reference modes from another source; shapes in the order of channel_names(), or empty. modes() then lists these
   // modes, with frequency 0 where no identified mode matches.

@@ -31,7 +31,7 @@ void check_declared(const ObservationRecord& r, std::vector<std::string>& faults
   constexpr double kRounding = 1e-3;  // relative rounding of times in ms and of rates with few digits
   if (!std::isfinite(r.readout_frames) || std::abs(r.readout_frames) > 1.0 + kRounding)
     faults.push_back("readout of " + number(r.readout_frames) + " frames: must lie between -1 and 1");
-  const auto n = static_cast<std::size_t>(r.n_points());
+  const auto n = static_cast<std::size_t>(r.u_px.cols());
   if (r.v_px.rows() != r.u_px.rows() || r.v_px.cols() != r.u_px.cols() || r.region_of_point.size() != n ||
       r.sigma_px.size() != n || (!r.raw_share.empty() && r.raw_share.size() != n))
     faults.emplace_back("inconsistent record: u, v, regions and sigmas have different numbers of points or frames");
@@ -130,23 +130,22 @@ RecordCheck check_record(const ObservationRecord& record) {
   return check;
 }
 
-ObservationRecord select_points(const ObservationRecord& record, const std::vector<Eigen::Index>& points) {
-  ObservationRecord out = record;
-  const auto n = static_cast<Eigen::Index>(points.size());
-  out.u_px.resize(record.n_frames(), n);
-  out.v_px.resize(record.n_frames(), n);
-  out.region_of_point.clear();
-  out.sigma_px.clear();
-  out.raw_share.clear();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index j = points[static_cast<std::size_t>(i)];
-    out.u_px.col(i) = record.u_px.col(j);
-    out.v_px.col(i) = record.v_px.col(j);
-    out.region_of_point.push_back(record.region_of_point[static_cast<std::size_t>(j)]);
-    out.sigma_px.push_back(record.sigma_px[static_cast<std::size_t>(j)]);
-    if (!record.raw_share.empty()) out.raw_share.push_back(record.raw_share[static_cast<std::size_t>(j)]);
+ObservationRecord select_points(ObservationRecord record, const std::vector<Eigen::Index>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {  // ascending: no point is overwritten before it is read
+    const auto to = static_cast<Eigen::Index>(i);
+    const auto from = static_cast<std::size_t>(points[i]);
+    record.u_px.col(to) = record.u_px.col(points[i]);
+    record.v_px.col(to) = record.v_px.col(points[i]);
+    record.region_of_point[i] = record.region_of_point[from];
+    record.sigma_px[i] = record.sigma_px[from];
+    if (!record.raw_share.empty()) record.raw_share[i] = record.raw_share[from];
   }
-  return out;
+  record.u_px.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(points.size()));
+  record.v_px.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(points.size()));
+  record.region_of_point.resize(points.size());
+  record.sigma_px.resize(points.size());
+  if (!record.raw_share.empty()) record.raw_share.resize(points.size());
+  return record;
 }
 
 }  // namespace core::closure

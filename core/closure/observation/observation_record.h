@@ -27,7 +27,7 @@ struct ObservationRecord {
   Eigen::MatrixXd u_px, v_px;     // frames x points; NaN = missing
 
   [[nodiscard]] Eigen::Index n_frames() const noexcept { return u_px.rows(); }
-  [[nodiscard]] Eigen::Index n_points() const noexcept { return u_px.cols(); }
+  [[nodiscard]] Eigen::Index n_points() const noexcept { return static_cast<Eigen::Index>(region_of_point.size()); }
   // Readout fraction of a pixel (core/geometry/rolling_shutter.h).
   [[nodiscard]] double readout_share(double u, double v) const noexcept;
 };
@@ -42,7 +42,7 @@ struct RecordCheck {
 // range.
 [[nodiscard]] RecordCheck check_record(const ObservationRecord& record);
 
-// Copies the record with these points only.
-[[nodiscard]] ObservationRecord select_points(const ObservationRecord& record, const std::vector<Eigen::Index>& points);
+// The record with these points only, ascending.
+[[nodiscard]] ObservationRecord select_points(ObservationRecord record, const std::vector<Eigen::Index>& points);
 
 }  // namespace core::closure

@@ -54,6 +54,7 @@ std::string left_by_adopted(const EffectCandidate& candidate, const Remainders& 
 
 void ObservationScores::begin() {
   prepared_.clear();
+  left_squares_.reset();
   is_prepared_ = is_scored_ = false;
 }
 
@@ -88,11 +89,16 @@ void ObservationScores::prepare() {
   is_prepared_ = true;
 }
 
+double ObservationScores::left_squares() const {
+  const FitView view = fit_.view();
+  return left_squares_ ? *left_squares_ : left_squares_.emplace(view.held_out.squares(view.model.residual()));
+}
+
 LevelFit ObservationScores::quality() const {
   const FitView view = fit_.view();
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
   LevelFit out;
-  const double squares = view.held_out.squares(view.model.residual()) + 2.0 * freedom;
+  const double squares = left_squares() + 2.0 * freedom;
   out.heldout = view.sigma_px * std::sqrt(squares / n_values);
   out.noise_floor = view.sigma_px * std::sqrt(view.held_out.noise_variance() + freedom / n_values);
   out.residual_rms = out.heldout;
@@ -125,9 +131,9 @@ Objection ObservationScores::refusal(const EffectCandidate& candidate, double ga
 
 // Of all constants that are still open, together: those of a lens share what one pattern explains.
 double ObservationScores::constants_gain(const TestedResidual& tested) const {
-  std::vector<Eigen::MatrixXd> fields;
+  std::vector<const Eigen::MatrixXd*> fields;
   for (const auto& candidate : prepared_) {
-    for (const Eigen::MatrixXd& field : candidate->constant_fields()) fields.push_back(field);
+    for (const Eigen::MatrixXd& field : candidate->constant_fields()) fields.push_back(&field);
   }
   return fields.empty() ? 0.0 : BlockEstimates(fields, fit_.view().held_out.errors(tested.values)).held_out_gain();
 }
@@ -141,7 +147,7 @@ std::vector<CandidateScore> ObservationScores::score() {
   const Remainders remainders(fit_, moments);
   const std::vector<const ObservationEffect*> named = open();
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
-  const double left = view.held_out.squares(residual), squares = left + 2.0 * freedom;
+  const double left = left_squares(), squares = left + 2.0 * freedom;
   const PatternGain learned = view.held_out.of_learned(moments);
   const bool is_material = learned.gain > material_of(learned.band, view, kLearnedBar) * n_values;
   const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0};

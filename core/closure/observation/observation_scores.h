@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ class ObservationScores {
   ObservationScores(const ObservationFit& fit, const std::vector<const ObservationEffect*>& catalogue)
       : fit_(fit), catalogue_(catalogue) {}
 
-  // Prepares the candidates for the current solution; call it after each solve() of the fit.
+  // Forgets the candidates of the last solution; call it before each solve() of the fit.
   void begin();
   [[nodiscard]] LevelFit quality() const;
 
@@ -48,6 +49,7 @@ class ObservationScores {
   [[nodiscard]] std::vector<const ObservationEffect*> open() const;  // named and not adopted
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
+  [[nodiscard]] double left_squares() const;  // held-out squares of the fit's residual
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
   // scores: of the named candidates, in their order.
   void refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) const;
@@ -64,6 +66,7 @@ class ObservationScores {
   const std::vector<const ObservationEffect*>& catalogue_;
   std::vector<std::unique_ptr<EffectCandidate>> prepared_;  // named ones first, then the latent one, if any
   std::vector<char> is_other_cause_;                        // per candidate of the last score()
+  mutable std::optional<double> left_squares_;              // computed on request
   bool is_prepared_ = false, is_scored_ = false;
 };
 

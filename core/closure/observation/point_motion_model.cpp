@@ -50,7 +50,7 @@ PointMotionModel::PointMotionModel(const ObservationRecord& record)
       shift_(record.n_frames()),
       geometry_(point_geometry(record)),
       weight_(2 * record.n_points()),
-      cosines_(rungs_.cosines(record.n_frames(), band_)),
+      n_frames_(record.n_frames()),
       region_row_(2 * record.regions.size(), -1) {
   for (Eigen::Index j = 0; j < record.n_points(); ++j)
     weight_.segment<2>(2 * j).setConstant(1.0 / record.sigma_px[static_cast<std::size_t>(j)]);
@@ -84,7 +84,11 @@ void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::
 void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low,
                                  RungSet band) {
   const RungSet wanted = band == 0 ? rungs_.up_to(kLowBand_hz) : band;
-  if (wanted != band_) cosines_ = rungs_.cosines(cosines_.rows(), wanted);
+  if (low.empty()) {
+    cosines_.resize(0, 0);
+  } else if (wanted != band_ || cosines_.size() == 0) {
+    cosines_ = rungs_.cosines(n_frames_, wanted);
+  }
   band_ = wanted;
   full_ = full;
   low_ = low;

@@ -119,8 +119,8 @@ class PointMotionModel {
   // Orthonormal columns outside and within the band of the added columns.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }
-  [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }  // of that band
   [[nodiscard]] RungSet band() const noexcept { return band_; }
+  [[nodiscard]] Eigen::Index n_frames() const noexcept { return n_frames_; }
   // Fields or series in px (2 points x any number, real or complex), whitened; and back.
   template <class Matrix>
   [[nodiscard]] Matrix whitened(const Matrix& px) const {
@@ -156,7 +156,8 @@ class PointMotionModel {
   PointGeometry geometry_;
   Eigen::VectorXd weight_, sigma_px_;
   PointCorrelation correlation_;
-  Eigen::MatrixXd cosines_;
+  Eigen::Index n_frames_;
+  Eigen::MatrixXd cosines_;                        // of the band; empty while no column is added for it
   std::vector<Eigen::VectorXd> own_, full_, low_;  // fields, px
   std::vector<Eigen::Index> region_row_, zoom_row_of_point_;
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;

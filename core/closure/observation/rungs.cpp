@@ -47,12 +47,17 @@ double Rungs::lowest_hz(RungSet set) const noexcept {
   return 0.0;
 }
 
-Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, RungSet set) const {
+std::vector<Eigen::Index> Rungs::orders(Eigen::Index n_frames, RungSet set) const {
   const auto n = static_cast<double>(n_frames);
-  std::vector<Eigen::Index> orders;
+  std::vector<Eigen::Index> out;
   for (Eigen::Index m = 0; m < n_frames; ++m) {
-    if (holds(set, of(0.5 * rate_hz_ * static_cast<double>(m) / n))) orders.push_back(m);
+    if (holds(set, of(0.5 * rate_hz_ * static_cast<double>(m) / n))) out.push_back(m);
   }
+  return out;
+}
+
+Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, std::span<const Eigen::Index> orders) {
+  const auto n = static_cast<double>(n_frames);
   Eigen::MatrixXd out(n_frames, static_cast<Eigen::Index>(orders.size()));
   for (Eigen::Index c = 0; c < out.cols(); ++c) {
     const auto m = static_cast<double>(orders[static_cast<std::size_t>(c)]);
@@ -61,6 +66,10 @@ Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, RungSet set) const {
       out(k, c) = scale * std::cos(std::numbers::pi * m * (static_cast<double>(k) + 0.5) / n);
   }
   return out;
+}
+
+Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, RungSet set) const {
+  return cosines(n_frames, orders(n_frames, set));
 }
 
 }  // namespace core::closure

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace core::closure {
@@ -28,6 +29,9 @@ class Rungs {
 
   // Orthonormal cosines (DCT-II) of these rungs, frames x count.
   [[nodiscard]] Eigen::MatrixXd cosines(Eigen::Index n_frames, RungSet set) const;
+  // Their orders, and the cosines of some of them.
+  [[nodiscard]] std::vector<Eigen::Index> orders(Eigen::Index n_frames, RungSet set) const;
+  [[nodiscard]] static Eigen::MatrixXd cosines(Eigen::Index n_frames, std::span<const Eigen::Index> orders);
 
  private:
   double rate_hz_;

@@ -70,17 +70,15 @@ class ConstantCandidate final : public EffectCandidate {
   ConstantCandidate(const ConstantEffect& effect, const FitView& fit)
       : effect_(effect),
         fit_(fit),
-        fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)) {
-    for (const Eigen::MatrixXd& field : fields_) error_fields_.push_back(fit.held_out.errors(field));
+        error_fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)),
+        sigmas_(BlockEstimates(error_fields_, fit.model.residual()).sigmas_from_zero()) {
+    for (Eigen::MatrixXd& field : error_fields_) field = fit.held_out.errors(field);
   }
   // In squares of points left out, as the scores of patterns.
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
     return BlockEstimates(error_fields_, fit_.held_out.errors(residual.values)).held_out_gain();
   }
-  double find(const TestedResidual& residual) override {
-    sigmas_ = BlockEstimates(fields_, residual.values).sigmas_from_zero();
-    return gain(residual);
-  }
+  double find(const TestedResidual& residual) override { return gain(residual); }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
   [[nodiscard]] std::span<const Eigen::MatrixXd> constant_fields() const override { return error_fields_; }
   [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
@@ -94,8 +92,8 @@ class ConstantCandidate final : public EffectCandidate {
  private:
   const ConstantEffect& effect_;
   const FitView fit_;
-  std::vector<Eigen::MatrixXd> fields_, error_fields_;  // error_fields_: of points left out
-  double sigmas_ = 0.0;
+  std::vector<Eigen::MatrixXd> error_fields_;  // derivatives; from sigmas_ on, their errors of points left out
+  double sigmas_;                              // from zero, of the fit's own residual
 };
 
 }  // namespace
@@ -107,13 +105,17 @@ std::unique_ptr<EffectCandidate> ConstantEffect::candidate(const FitView& fit) c
 std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& values, const FitView& fit) const {
   std::vector<Eigen::MatrixXd> out;
   const CorrectionView view = beside(values, fit.correction());
+  const auto removed = [&](Eigen::Index p, double step) {
+    Eigen::MatrixXd positions = fit.predicted_px;  // measured positions would add noise to the derivative
+    Eigen::VectorXd changed = values;
+    changed(p) += step;
+    remove(changed, view, positions);
+    return positions;
+  };
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    Eigen::MatrixXd more = fit.predicted_px, less = more;  // measured positions would add noise to the derivative
-    Eigen::VectorXd up = values, down = values;
-    up(p) += step(), down(p) -= step();
-    remove(up, view, more);
-    remove(down, view, less);
-    Eigen::MatrixXd field = (less - more) / (2.0 * step());
+    Eigen::MatrixXd field = removed(p, -step());
+    field -= removed(p, step());
+    field /= 2.0 * step();
     // The effect also shifts the mean positions, and the zoom scales this shift.
     for (Eigen::Index j = 0; j < fit.record.n_points(); ++j)
       field.middleRows(2 * j, 2) -= field.middleRows(2 * j, 2).rowwise().mean().eval() * fit.model.zoom_of_point(j);
