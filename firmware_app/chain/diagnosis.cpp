@@ -24,6 +24,7 @@ void Diagnosis::take(const core::TrackFrame& frame, std::uint32_t stride) noexce
 
 core::closure::ClosureReport Diagnosis::report(bool final) {
   change_ = {};
+  for (const std::unique_ptr<Rebuild>& rebuilt : rebuilt_) rebuilt->release();
   core::closure::ClosureReport report = loop_.report(final);
   amend(report);
   return report;

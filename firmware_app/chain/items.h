@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/rotors/aircraft.h"
@@ -27,9 +28,8 @@ struct CorrectionSwitch {
   std::uint32_t correction_set = 0, record = 0;  // numbers in the CorrectionLog
 };
 
-// spectrum -> modes.
-struct SpectrumSnapshot {
-  core::CpsdSums sums;
+// What is known of sums besides their values.
+struct SnapshotHead {
   std::uint64_t number = 0;                      // 0, 1, 2, ... in stream time
   std::int64_t t_last_ns = 0;                    // time stamp of the newest sample in the sums
   bool final = false;                            // the record has ended
@@ -37,6 +37,13 @@ struct SpectrumSnapshot {
   core::ReadoutEstimate readout = {};
   core::AircraftLog aircraft = {};        // up to the newest sample
   ModeIdentification* rebuilt = nullptr;  // whose modes belong to these sums; null: those followed so far
+};
+
+// spectrum -> modes.
+struct SpectrumSnapshot : SnapshotHead {
+  SpectrumSnapshot() = default;
+  explicit SpectrumSnapshot(core::CpsdSums sized) : sums(std::move(sized)) {}
+  core::CpsdSums sums;
 };
 
 // modes -> reports and telemetry.

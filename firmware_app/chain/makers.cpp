@@ -30,7 +30,7 @@ Diagnosis::MakeGeometry geometry_maker(const AppConfig& config, const core::Came
 
 std::unique_ptr<Diagnosis::Past> past_of(const AppConfig& config, const core::CameraInfo& camera,
                                          const core::TrackFrame& keyframe,
-                                         const core::ChannelDisplacement& displacement) {
+                                         const core::ChannelDisplacement& displacement, const std::string& folder) {
   constexpr std::size_t kMostBytes = std::size_t{64} << 20U;  // an hour of 64 points at 30 frames a second
   const bool has_attitude = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
   if (config.closure.adopt != ClosureAdopt::kAuto || has_attitude) return nullptr;
@@ -39,7 +39,7 @@ std::unique_ptr<Diagnosis::Past> past_of(const AppConfig& config, const core::Ca
                        config.identification.period_hops, camera.rate_hz,
                        identifier_maker(config, camera, keyframe, spectra), motor_lines(config)};
   return std::make_unique<Diagnosis::Past>(
-      Diagnosis::Past{std::move(chain), TrackStore(keyframe, kMostBytes, camera.frame_count), keyframe});
+      Diagnosis::Past{std::move(chain), TrackStore(keyframe, kMostBytes, camera.frame_count, folder), keyframe});
 }
 
 }  // namespace app

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <memory>
+#include <string>
 
 #include "core/geometry/channel_displacement.h"
 #include "core/types/displacement.h"
@@ -23,9 +24,10 @@ namespace app {
                                                      const core::TrackFrame& keyframe);
 
 // What a run with closure.adopt: auto is measured again from; null: it is not (other values, and where attitudes are
-// used, which the store does not keep). Throws std::bad_alloc.
+// used, which the store does not keep). folder: of a file for its tracks; empty: memory. Throws std::bad_alloc.
 [[nodiscard]] std::unique_ptr<Diagnosis::Past> past_of(const AppConfig& config, const core::CameraInfo& camera,
                                                        const core::TrackFrame& keyframe,
-                                                       const core::ChannelDisplacement& displacement);
+                                                       const core::ChannelDisplacement& displacement,
+                                                       const std::string& folder = {});
 
 }  // namespace app

@@ -172,14 +172,12 @@ bool MissingEffectSearch::lens_in_keyframe(const core::CameraModel& lens) const 
 void MissingEffectSearch::conclude(core::closure::ClosureReport& out) const {
   const std::int64_t begin_ns = rt::monotonic_ns();
   try {
-    const core::closure::ObservationRecord record = config_.recent.record();
-    const double duration_s = static_cast<double>(record.n_frames()) / record.rate_hz;
-    core::closure::ObservationLevel level(record);
+    core::closure::ObservationLevel level(config_.recent.record());
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
     options.least_gain = config_.least_px;
     out.result = core::closure::close_loop(level, options);
-    config_.motors.name(out.result, config_.rate_hz, duration_s);
+    config_.motors.name(out.result, config_.rate_hz, out.duration_s);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {  // the record cannot be analysed: the report states why

@@ -14,16 +14,16 @@ ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_ident
       identifier_(make_identifier_(rate_hz, book.at(0))),
       tracker_({.row_delay_s = identifier_->declared_delay_s()}) {}
 
-void ModeIdentification::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) {
-  follow(snapshot);
-  out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
+void ModeIdentification::identify(const SnapshotHead& snapshot, const core::CpsdSums& sums, IdentificationResult& out) {
+  follow(snapshot, sums.rate_hz);
+  out.estimate = identifier_->identify(sums, snapshot.readout);
   const std::vector<double> delay_s = identifier_->delay_s(out.estimate);
   out.aircraft = snapshot.aircraft.summary();
   const core::MotorLines heard(out.aircraft.motors);
   (heard.empty() ? motors_ : heard).judge(out.estimate, delay_s);
   out.estimate.amendments = book_.at(correction_set_).words;
   tracker_.set_row_delays(delay_s);
-  out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
+  out.sums.copy_totals(sums, identifier_->n_outputs());
   out.estimate.number = n_estimates_++;
   out.estimate.t_stream_ns = snapshot.t_last_ns;
   out.estimate.final = snapshot.final;
@@ -31,12 +31,12 @@ void ModeIdentification::identify(const SpectrumSnapshot& snapshot, Identificati
 }
 
 // At another rate a mode has another apparent frequency. A new epoch shares no data with the old one.
-void ModeIdentification::follow(const SpectrumSnapshot& snapshot) {
+void ModeIdentification::follow(const SnapshotHead& snapshot, double rate_hz) {
   if (snapshot.rebuilt != nullptr && snapshot.rebuilt != taken_over_) take_over(*snapshot.rebuilt);
-  const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
+  const bool begins = rate_hz != rate_hz_ || snapshot.record != record_;
   if (!begins && snapshot.correction_set == correction_set_) return;
-  identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.correction_set));
-  rate_hz_ = snapshot.sums.rate_hz;
+  identifier_ = make_identifier_(rate_hz, book_.at(snapshot.correction_set));
+  rate_hz_ = rate_hz;
   correction_set_ = snapshot.correction_set, record_ = snapshot.record;
   if (begins) tracker_.restart();
 }

@@ -27,7 +27,8 @@ class ModeIdentification {
                      core::MotorLines motors);
 
   // Throws std::bad_alloc: this estimate is lost, the next may succeed.
-  void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out);
+  void identify(const SnapshotHead& snapshot, const core::CpsdSums& sums, IdentificationResult& out);
+  void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) { identify(snapshot, snapshot.sums, out); }
 
   // Saves the modes being followed, for a later run's resume(). False: they do not fit.
   [[nodiscard]] bool save(StateBytes& out) const noexcept;
@@ -44,7 +45,7 @@ class ModeIdentification {
   }  // of the newest snapshot
 
  private:
-  void follow(const SpectrumSnapshot& snapshot);
+  void follow(const SnapshotHead& snapshot, double rate_hz);
 
   MakeIdentifier make_identifier_;
   const CorrectionLog& book_;

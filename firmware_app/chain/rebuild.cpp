@@ -16,12 +16,11 @@ Rebuild::Rebuild(const Chain& chain, const CorrectionLog& book, std::vector<Stre
       next_sample_(sample_),
       offset_(sample_),
       next_offset_(sample_),
-      spectra_(chain.welch, chain.period_hops),
-      modes_(chain.rate_hz, chain.make_identifier, book, chain.motors),
-      snapshot_{spectra_.sums()} {
+      spectra_(std::in_place, chain.welch, chain.period_hops),
+      modes_(chain.rate_hz, chain.make_identifier, book, chain.motors) {
   meter_.set_offset(offset_);
   begin(stretches_.front());
-  spectra_.begin_as(stretches_.front().correction_set, stretches_.front().record);
+  spectra_->begin_as(stretches_.front().correction_set, stretches_.front().record);
 }
 
 // Where row delays stay, the displacements go on from where they were, and no segment is masked.
@@ -41,7 +40,7 @@ void Rebuild::begin(const Stretch& stretch) noexcept {
   meter_.take(now);
   (void)meter_.begin_frame(0);
   if (next_offset_.is_known()) {
-    spectra_.begin_as(stretch.correction_set, stretch.record);
+    spectra_->begin_as(stretch.correction_set, stretch.record);
   } else {
     next_offset_.clear();
   }
@@ -56,15 +55,15 @@ void Rebuild::take(core::TrackFrame& frame, std::uint32_t stride) noexcept {
     begin(stretches_[n_begun_]);
   meter_.measure(frame, stride, sample_);
   if (n_begun_ < stretches_.size()) compare_with_next(frame, stride);
-  for (bool is_done = false; !is_done; identify_when_due()) is_done = spectra_.step(sample_);
+  for (bool is_done = false; !is_done; identify_when_due()) is_done = spectra_->step(sample_);
   taken_through_ = frame.sequence + 1;
 }
 
 void Rebuild::identify_when_due() noexcept {
-  if (!spectra_.is_due()) return;
-  spectra_.take_snapshot(snapshot_);
+  if (!spectra_->is_due()) return;
+  const SnapshotHead head = spectra_->take_head();
   try {
-    modes_.identify(snapshot_, result_);
+    modes_.identify(head, spectra_->sums(), result_);
   } catch (...) {  // out of memory: the history of the modes lacks this estimate
   }
 }
@@ -77,6 +76,12 @@ bool Rebuild::offer(bool has_all) noexcept {
   has_all = has_all || taken_through_ + 1 >= state || (waits > 0 && taken_through_ >= waits);
   // Release: tracking, spectrum and identification see everything that was computed.
   return has_all && state_.compare_exchange_strong(state, state | kOffered, std::memory_order_acq_rel);
+}
+
+void Rebuild::release() noexcept {
+  if (!spectra_ || !are_spectra_taken_.load(std::memory_order_acquire)) return;
+  spectra_.reset();
+  result_ = {};
 }
 
 void Rebuild::announce(std::uint64_t from_sequence) noexcept {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/types/displacement.h"
@@ -59,8 +60,14 @@ class Rebuild {
 
   // After the offer: each is taken over by the one thread that uses its counterpart.
   [[nodiscard]] SampleOffset& offset() noexcept { return offset_; }
-  [[nodiscard]] SpectrumAccumulator& spectra() noexcept { return spectra_; }
+  [[nodiscard]] SpectrumAccumulator& spectra() noexcept { return *spectra_; }
   [[nodiscard]] ModeIdentification& modes() noexcept { return modes_; }
+  // The thread that took them over does not use the spectra any more.
+  void note_spectra_taken() noexcept {
+    are_spectra_taken_.store(true, std::memory_order_release);
+  }  // partner: release()
+  // The diagnosis' thread: frees what was exchanged for the spectra, once it is known to be unused.
+  void release() noexcept;
 
  private:
   void begin(const Stretch& stretch) noexcept;
@@ -77,12 +84,12 @@ class Rebuild {
   core::DisplacementSample sample_, next_sample_;
   core::TrackFrame next_frame_;
   SampleOffset offset_, next_offset_;
-  SpectrumAccumulator spectra_;
+  std::optional<SpectrumAccumulator> spectra_;  // empty once taken over and released
   ModeIdentification modes_;
-  SpectrumSnapshot snapshot_;
   IdentificationResult result_;
   std::uint64_t taken_through_ = 0;  // the number after the last frame taken
   std::atomic<std::uint64_t> state_{0}, waits_through_{0};
+  std::atomic<bool> are_spectra_taken_{false};
 };
 
 }  // namespace app

@@ -78,6 +78,11 @@ void SpectrumAccumulator::finish() noexcept {
 
 void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.sums = welch_.sums();  // same sizes: copies values, allocates nothing
+  static_cast<SnapshotHead&>(out) = take_head();
+}
+
+SnapshotHead SpectrumAccumulator::take_head() noexcept {
+  SnapshotHead out;
   out.number = n_snapshots_++;
   out.t_last_ns = t_stream_ns_;
   out.final = is_finished_;
@@ -88,6 +93,7 @@ void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.aircraft = aircraft_;
   out.rebuilt = rebuilt_modes_;
   is_due_ = false;
+  return out;
 }
 
 void SpectrumAccumulator::keep_state(double period_s) noexcept {

@@ -34,6 +34,8 @@ class SpectrumAccumulator {
 
   [[nodiscard]] bool is_due() const noexcept { return is_due_; }
   void take_snapshot(SpectrumSnapshot& out) noexcept;
+  // The same without a copy of the sums: they are sums(), until the next step.
+  [[nodiscard]] SnapshotHead take_head() noexcept;
 
   // Set-up only. state_is_due() becomes true every half `period_s` of stream time, between two samples; not while
   // overload thins the frames, and not once a correction is in force.

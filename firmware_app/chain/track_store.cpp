@@ -62,22 +62,48 @@ void TrackLattice::round(core::TrackFrame& frame) const noexcept {
   }
 }
 
-TrackStore::TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes, std::uint64_t most_frames)
+TrackStore::TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes, std::uint64_t most_frames,
+                       const std::string& folder)
     : lattice_(keyframe),
       keyframe_(keyframe),
       frame_bytes_(sizeof(Head) + kPointBytes * keyframe.points.size()),
       n_slots_(std::max<std::size_t>(1, most_bytes / frame_bytes_)),
-      n_per_chunk_(std::max<std::size_t>(1, kChunkBytes / frame_bytes_)) {
+      n_per_chunk_(std::max<std::size_t>(1, kChunkBytes / frame_bytes_)),
+      file_(drivers::ScratchFile::in(folder)) {
   if (most_frames > 0) n_slots_ = static_cast<std::size_t>(std::min<std::uint64_t>(n_slots_, most_frames));
 }
 
 std::byte* TrackStore::slot(std::uint64_t i) noexcept {
   const auto k = static_cast<std::size_t>(i % n_slots_);
-  return chunks_[k / n_per_chunk_].data() + k % n_per_chunk_ * frame_bytes_;
+  return hold(k / n_per_chunk_) ? chunks_[held_].data() + k % n_per_chunk_ * frame_bytes_ : nullptr;
 }
-const std::byte* TrackStore::slot(std::uint64_t i) const noexcept {
-  const auto k = static_cast<std::size_t>(i % n_slots_);
-  return chunks_[k / n_per_chunk_].data() + k % n_per_chunk_ * frame_bytes_;
+
+std::size_t TrackStore::chunk_bytes(std::size_t chunk) const noexcept {
+  return std::min(n_per_chunk_, n_slots_ - chunk * n_per_chunk_) * frame_bytes_;
+}
+
+// What the file does not take stays in memory.
+void TrackStore::put_away() noexcept {
+  if (!file_ || held_ >= chunks_.size()) return;
+  if (is_changed_ && !file_->write(place_in_file(held_), chunks_[held_])) return;
+  std::vector<std::byte>().swap(chunks_[held_]);
+}
+
+bool TrackStore::hold(std::size_t chunk) noexcept {
+  if (chunk != held_) {
+    put_away();
+    held_ = chunk, is_changed_ = true;
+  }
+  if (!chunks_[chunk].empty()) return true;
+  try {
+    std::vector<std::byte> bytes(chunk_bytes(chunk));
+    if (!file_ || !file_->read(place_in_file(chunk), bytes)) return false;
+    chunks_[chunk].swap(bytes);
+    is_changed_ = false;
+  } catch (...) {  // no memory
+    return false;
+  }
+  return true;
 }
 
 // For the next frame; without memory the slots that there are become all.
@@ -85,7 +111,7 @@ void TrackStore::make_room() noexcept {
   const std::size_t n_made = chunks_.size() * n_per_chunk_;
   if (n_slots_ == 0 || n_added_ % n_slots_ < n_made) return;
   try {
-    chunks_.emplace_back(std::min(n_per_chunk_, n_slots_ - n_made) * frame_bytes_);
+    chunks_.emplace_back(chunk_bytes(chunks_.size()));
   } catch (...) {  // no memory
     n_slots_ = n_made;
   }
@@ -98,7 +124,9 @@ std::size_t TrackStore::n_frames() const noexcept {
 void TrackStore::add(const core::TrackFrame& frame, std::uint32_t stride) noexcept {
   make_room();
   if (n_slots_ == 0) return;
-  std::byte* at = slot(n_added_++);
+  std::byte* at = slot(n_added_);
+  if (at == nullptr) return;
+  ++n_added_, is_changed_ = true;
   const Head head{frame.sequence, frame.t_start_ns, stride, frame.gap_before ? 1U : 0U};
   std::memcpy(at, &head, sizeof head);
   at += sizeof head;
@@ -113,8 +141,12 @@ void TrackStore::add(const core::TrackFrame& frame, std::uint32_t stride) noexce
   }
 }
 
-std::uint32_t TrackStore::read(std::size_t i, core::TrackFrame& out) const noexcept {
+std::uint32_t TrackStore::read(std::size_t i, core::TrackFrame& out) noexcept {
   const std::byte* at = slot(n_added_ - n_frames() + i);
+  if (at == nullptr) {
+    for (core::TrackPoint& point : out.points) point.seen = point.inlier = false;
+    return 1;
+  }
   Head head;
   std::memcpy(&head, at, sizeof head);
   at += sizeof head;

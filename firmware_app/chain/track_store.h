@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/types/track.h"
 #include "core/types/vector2.h"
+#include "drivers/storage/scratch_file.h"
 
 namespace app {
 
@@ -29,15 +32,18 @@ class TrackLattice {
 // 58 MB. Of a longer run the newest frames are kept. One thread.
 class TrackStore {
  public:
-  // most_frames: of the run, 0 = unknown.
-  TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes, std::uint64_t most_frames);
+  // most_frames: of the run, 0 = unknown. folder: where a file holds all but the megabyte in use; empty, or where the
+  // file takes no more: memory.
+  TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes, std::uint64_t most_frames,
+             const std::string& folder = {});
 
   // A frame on the lattice, later than those before. Allocates once a megabyte; where there is no more memory, the
   // newest frames that fit are kept.
   void add(const core::TrackFrame& frame, std::uint32_t stride) noexcept;
   [[nodiscard]] std::size_t n_frames() const noexcept;
-  // Frame i of those that are kept, into a frame of the keyframe's size. Returns its stride.
-  std::uint32_t read(std::size_t i, core::TrackFrame& out) const noexcept;
+  // Frame i of those that are kept, into a frame of the keyframe's size. Returns its stride. Where the file cannot be
+  // read, no point of it is seen.
+  std::uint32_t read(std::size_t i, core::TrackFrame& out) noexcept;
 
  private:
   struct Head {
@@ -48,13 +54,21 @@ class TrackStore {
   };
 
   TrackLattice lattice_;
-  core::TrackFrame keyframe_;  // identity and region of each point
-  [[nodiscard]] std::byte* slot(std::uint64_t i) noexcept;
-  [[nodiscard]] const std::byte* slot(std::uint64_t i) const noexcept;
+  core::TrackFrame keyframe_;                               // identity and region of each point
+  [[nodiscard]] std::byte* slot(std::uint64_t i) noexcept;  // null: it cannot be read back
   void make_room() noexcept;
+  [[nodiscard]] bool hold(std::size_t chunk) noexcept;
+  void put_away() noexcept;
+  [[nodiscard]] std::size_t chunk_bytes(std::size_t chunk) const noexcept;
+  [[nodiscard]] std::uint64_t place_in_file(std::size_t chunk) const noexcept {
+    return std::uint64_t{chunk} * n_per_chunk_ * frame_bytes_;
+  }
 
   std::size_t frame_bytes_, n_slots_, n_per_chunk_;
-  std::vector<std::vector<std::byte>> chunks_;  // made as they are needed
+  std::vector<std::vector<std::byte>> chunks_;  // made as they are needed; empty: in the file
+  std::optional<drivers::ScratchFile> file_;
+  std::size_t held_ = 0;     // the chunk in use
+  bool is_changed_ = false;  // since it was read from the file
   std::uint64_t n_added_ = 0;
 };
 

@@ -146,7 +146,7 @@ struct RtConfig {
   bool lock_memory = false;
   double stall_s = 10.0;      // a longer step is reported and the watchdog not fed
   bool thin_overload = true;  // under overload keep every n-th frame, rather than those that happen to find room
-  int frame_slots = 8;
+  int frame_slots = 0;        // 0 = chosen: fewer for a lossless source, which waits
   int sample_slots = 256;
 };
 

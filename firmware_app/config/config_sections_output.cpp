@@ -184,8 +184,8 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(switch_key("rt.thin_overload", at(&A::rt, &R::thin_overload),
                             "with a live source that is too fast for tracking, keep every n-th frame at equal spacing "
                             "and start new spectra at the new rate; false: keep the frames that find room"));
-  keys.push_back(whole_key("rt.frame_slots", "", at(&A::rt, &R::frame_slots), {2, 256},
-                           "number of frames that can wait for tracking"));
+  keys.push_back(whole_key("rt.frame_slots", "", at(&A::rt, &R::frame_slots), {0, 256},
+                           "number of frames that can wait for tracking; 0 = 8, or 4 of a source that waits itself"));
   keys.push_back(whole_key("rt.sample_slots", "", at(&A::rt, &R::sample_slots), {2, 65536},
                            "number of samples that can wait for spectra and records"));
 }

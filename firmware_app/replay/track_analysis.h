@@ -50,7 +50,10 @@ class ChannelAnalysis {
   // A state of the aircraft received before the next sample.
   void take(const core::AircraftState& state) noexcept { spectra_.take(state); }
   // Before the next sample: goes on as a run that was measured again.
-  void take_over(Rebuild& rebuilt) noexcept { spectra_.take_over(rebuilt.spectra(), rebuilt.modes()); }
+  void take_over(Rebuild& rebuilt) noexcept {
+    spectra_.take_over(rebuilt.spectra(), rebuilt.modes());
+    rebuilt.note_spectra_taken();
+  }
   // False: the frame has no cell of its own on the grid, and is left out.
   bool push(const core::DisplacementSample& sample);
   // Call once, after the last sample.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -53,24 +54,25 @@ struct DataFlow {
                            motor_lines(config)};
   Diagnosis diagnosis{missing_effect_search_config(config, source.info, source.keyframe), book,
                       geometry_maker(config, source.info, source.keyframe),
-                      past_of(config, source.info, source.keyframe, source.displacement)};
+                      past_of(config, source.info, source.keyframe, source.displacement, config.record.directory)};
   StructureComparison comparison{structure.value_or(core::structure::DeclaredFrame{}), source.channels(),
                                  config.closure.period_s};
   core::PreviewMaker preview_maker = preview_maker_for(config, source);
 
-  // camera -> [frames] -> tracking -> [samples] -> spectrum -> (snapshots) -> identification -> [results] -> publish
+  // camera -> [frames] -> tracking -> [samples] -> spectrum -> [snapshots] -> identification -> [results] -> publish
   //                                -> [records], (previews) -> publish
   //                                -> [recent_tracks] -> closure -> [closures] -> publish; [correction_switches] ->
   //                                tracking
   // identification -> (estimates) -> structure -> [comparisons] -> publish
   // tracking -> [aircraft_updates] -> spectrum
   // spectrum, identification -> (spectrum_states, mode_states) -> checkpoint -> the state file
-  rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
+  rt::SpscRing<core::Frame> frames{frame_slots(), source.first_frame};
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
   rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
   rt::TripleBuffer<core::Preview> previews{preview_maker.prototype()};
-  rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
-  rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
+  rt::SpscRing<SpectrumSnapshot> snapshots{slots(source.info.lossless ? 1 : kEstimateSlots),
+                                           SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
+  rt::SpscRing<IdentificationResult> results{slots(kEstimateSlots), IdentificationResult{}};
   rt::SpscRing<ShownFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, ShownFrame{source.keyframe}};
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
   rt::TripleBuffer<core::ModalEstimate> estimates{core::ModalEstimate{}};
@@ -92,11 +94,11 @@ struct DataFlow {
       source.info.lossless,
       diagnosis.change()};
   SpectrumStage spectrum{
-      {samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr,
+      {samples.reader(), snapshots.writer(), keeps_state() ? &spectrum_states : nullptr,
        where(aircraft != nullptr, aircraft_updates.reader()), where(takes_out(), takeovers.reader())},
       spectra,
       source.info.lossless};
-  IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr,
+  IdentificationStage identification{{snapshots.reader(), results.writer(), keeps_state() ? &mode_states : nullptr,
                                       compares_structure() ? &estimates : nullptr},
                                      modes};
   ClosureStage closure{{recent_tracks.reader(), closures.writer(), where(takes_out(), correction_switches.writer())},
@@ -128,8 +130,13 @@ struct DataFlow {
   [[nodiscard]] core::Health host_status();  // and those of the computer; reads files
 
  private:
-  static constexpr int kResultSlots = 8, kRecentSlots = 1024, kAircraftSlots = 64;
+  static constexpr int kResultSlots = 8, kEstimateSlots = 2, kLiveSlots = 8, kLosslessSlots = 4, kRecentSlots = 1024,
+                       kAircraftSlots = 64;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
+  [[nodiscard]] std::size_t frame_slots() const {
+    const int chosen = source.info.lossless ? kLosslessSlots : kLiveSlots;
+    return slots(config.rt.frame_slots > 0 ? std::max(config.rt.frame_slots, 2) : chosen);
+  }
   template <class End>
   static std::optional<End> where(bool is_wanted, End end) {
     return is_wanted ? std::optional<End>(std::move(end)) : std::nullopt;

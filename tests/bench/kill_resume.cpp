@@ -30,7 +30,7 @@
 namespace {
 
 constexpr double kRate_hz = 10'000.0, kPeriod_s = 0.5;
-constexpr std::size_t kMostKills = 2000;
+constexpr std::size_t kMostKills = 2000, kSnapshots = 32;  // after 1, 2, 4 ... hops, and at the end
 constexpr int kChannels = 3;
 
 core::WelchConfig config() {
@@ -127,11 +127,11 @@ void resume(Stream& stream, const std::string& path, app::SpectrumAccumulator& s
 int run(Stream& stream, const std::string& folder) {
   const std::string path = folder + "/hovermodal.state";
   rt::SpscRing<core::DisplacementSample> samples(256, empty_sample());
-  rt::TripleBuffer<app::SpectrumSnapshot> snapshots{
-      app::SpectrumSnapshot{core::WelchCpsd::empty_sums(config()), 0, 0, false, {}}};
+  rt::SpscRing<app::SpectrumSnapshot> snapshots(kSnapshots,
+                                                app::SpectrumSnapshot{core::WelchCpsd::empty_sums(config())});
   app::SpectrumAccumulator spectra(config(), 1'000'000);
   rt::TripleBuffer<app::StateBytes> states{app::StateBytes{std::vector<std::uint8_t>(spectra.state_bytes()), 0}};
-  app::SpectrumStage spectrum({samples.reader(), snapshots, &states}, spectra, false);
+  app::SpectrumStage spectrum({samples.reader(), snapshots.writer(), &states}, spectra, false);
   rt::TripleBuffer<app::StateBytes> modes{app::StateBytes{}};
   app::CheckpointStage checkpoint(states, modes, view(), path);
   samples.set_reader_wakeup(&spectrum.wakeup());
@@ -159,8 +159,11 @@ int run(Stream& stream, const std::string& folder) {
   writer.close();
   run_spectrum.join();
   run_checkpoint.join();
-  if (!snapshots.refresh()) return 3;
-  const std::vector<double> numbers = numbers_of(snapshots.front().sums);
+  auto reader = snapshots.reader();
+  for (std::size_t n_before = snapshots.depth(); n_before > 1; --n_before) reader.pop();
+  const app::SpectrumSnapshot* last = reader.front();
+  if (last == nullptr) return 3;
+  const std::vector<double> numbers = numbers_of(last->sums);
   std::FILE* out = std::fopen((folder + "/sums.bin").c_str(), "wb");
   if (out == nullptr) return 3;
   const bool written = std::fwrite(numbers.data(), sizeof(double), numbers.size(), out) == numbers.size();

@@ -18,7 +18,7 @@ namespace drivers {
 
 namespace {
 
-constexpr std::size_t kQueueSlots = 4;   // evens out the decoding time of key frames, which is several times as long
+constexpr std::size_t kQueueSlots = 2;   // one is decoded while one is copied; the ring behind evens out key frames
 constexpr double kExpectedShare = 0.98;  // containers round their frame count; a larger loss is reported
 
 std::uintmax_t size_of(const std::string& path) {

@@ -41,7 +41,7 @@ std::string losses_section(const PictureInputs& inputs) {
        {"Points followed", h.points_tracked, "in the last frame, agreeing with their region"},
        {"Points in all", h.points_total, "seeded in the first frame"},
        {"Estimates", h.estimates, "answers of the identification over the run"},
-       {"Snapshots skipped", h.snapshots_skipped, "spectra overwritten before the identification took them"}});
+       {"Snapshots skipped", h.snapshots_skipped, "spectra due while the identification was behind"}});
   return section_html("losses", title, body);
 }
 

@@ -16,12 +16,12 @@ CaptureStage::CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> 
     : camera_(camera),
       frames_(std::move(frames)),
       first_(std::move(first)),
-      spare_(first_),
       lossless_(camera.info().lossless),
       thin_overload_(thin_overload && !lossless_),
       rate_hz_(camera.info().rate_hz),
       overload_(rate_hz_) {
   last_sequence_ = first_.sequence;
+  if (!lossless_) spare_ = first_;
 }
 
 rt::StepStatus CaptureStage::step() noexcept {

@@ -44,7 +44,7 @@ class CaptureStage : public rt::Stage {
   drivers::Camera& camera_;
   rt::RingWriter<core::Frame> frames_;
   core::Frame first_;
-  core::Frame spare_;  // receives a frame that finds the ring full
+  core::Frame spare_;  // receives a frame that finds the ring full; empty for a lossless source, which waits
   bool lossless_;
   bool first_delivered_ = false;
   bool gap_before_next_ = false;

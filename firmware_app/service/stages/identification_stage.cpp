@@ -22,9 +22,12 @@ IdentificationStage::IdentificationStage(Ends ends, ModeIdentification& modes)
 rt::StepStatus IdentificationStage::step() noexcept {
   IdentificationResult* slot = ends_.results.try_claim();
   if (slot == nullptr) return rt::StepStatus::kIdle;
-  if (!ends_.snapshots.refresh()) return ends_.snapshots.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  const SpectrumSnapshot* snapshot = ends_.snapshots.front();
+  if (snapshot == nullptr) return ends_.snapshots.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
   rt::StageStats::add(stats().n_in);
-  if (!identify(*slot)) {
+  const bool is_made = identify(*snapshot, *slot);
+  ends_.snapshots.pop();
+  if (!is_made) {
     rt::StageStats::add(stats().n_dropped);
     return rt::StepStatus::kWorked;
   }
@@ -40,9 +43,9 @@ void IdentificationStage::finish() noexcept {
   if (ends_.newest != nullptr) ends_.newest->close();
 }
 
-bool IdentificationStage::identify(IdentificationResult& out) noexcept {
+bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {
   try {
-    modes_.identify(ends_.snapshots.front(), out);
+    modes_.identify(snapshot, out);
     return true;
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
     return false;

@@ -8,12 +8,12 @@
 
 namespace app {
 
-// newest snapshot -> ModeIdentification -> results, and the modes followed for a later run. Runs at ordinary priority
+// oldest snapshot -> ModeIdentification -> results, and the modes followed for a later run. Runs at ordinary priority
 // without a time limit: only a lossless source makes upstream stages wait for it.
 class IdentificationStage : public rt::Stage {
  public:
   struct Ends {
-    rt::TripleBuffer<SpectrumSnapshot>& snapshots;
+    rt::RingReader<SpectrumSnapshot> snapshots;
     rt::RingWriter<IdentificationResult> results;
     rt::TripleBuffer<StateBytes>* states = nullptr;           // null: no state is kept
     rt::TripleBuffer<core::ModalEstimate>* newest = nullptr;  // null: no structure is declared
@@ -26,7 +26,7 @@ class IdentificationStage : public rt::Stage {
   void finish() noexcept override;
 
  private:
-  [[nodiscard]] bool identify(IdentificationResult& out) noexcept;
+  [[nodiscard]] bool identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept;
 
   Ends ends_;
   ModeIdentification& modes_;

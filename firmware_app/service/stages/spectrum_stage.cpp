@@ -32,12 +32,15 @@ rt::StepStatus SpectrumStage::end_record() noexcept {
 }
 
 rt::StepStatus SpectrumStage::hand_over() noexcept {
-  if (!ends_.snapshots.taken()) {
+  SpectrumSnapshot* slot = ends_.snapshots.try_claim();
+  if (slot == nullptr) {
     const bool waits = waits_.load(std::memory_order_relaxed);
     if (waits && (lossless_ || spectra_.finished())) return rt::StepStatus::kIdle;  // the last one is never skipped
     n_skipped_.store(n_skipped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    (void)spectra_.take_head();
+    return rt::StepStatus::kWorked;
   }
-  spectra_.take_snapshot(ends_.snapshots.back());
+  spectra_.take_snapshot(*slot);
   ends_.snapshots.publish();
   rt::StageStats::add(stats().n_out);
   return rt::StepStatus::kWorked;
@@ -62,6 +65,7 @@ void SpectrumStage::take_over(std::uint64_t sequence) noexcept {
   for (const Takeover* next = ends_.takeovers->front(); next != nullptr && next->from_sequence <= sequence;
        next = ends_.takeovers->front()) {
     spectra_.take_over(next->rebuilt->spectra(), next->rebuilt->modes());
+    next->rebuilt->note_spectra_taken();
     ends_.takeovers->pop();
   }
 }

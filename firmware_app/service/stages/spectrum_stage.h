@@ -14,12 +14,12 @@
 namespace app {
 
 // sample ring -> SpectrumAccumulator -> snapshots, and the state for a later run. A lossless source hands over every
-// due snapshot and waits until it is read; a live one may overwrite an unread snapshot, which is counted.
+// due snapshot and waits for a free slot; a live one skips the snapshot, which is counted.
 class SpectrumStage : public rt::Stage {
  public:
   struct Ends {
     rt::RingReader<core::DisplacementSample> samples;
-    rt::TripleBuffer<SpectrumSnapshot>& snapshots;
+    rt::RingWriter<SpectrumSnapshot> snapshots;
     rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
     std::optional<rt::RingReader<AircraftUpdate>> aircraft = {};
     std::optional<rt::RingReader<Takeover>> takeovers = {};

@@ -196,6 +196,15 @@ TEST_F(RebuildHandover, BeginsWithTheAnnouncedFrame) {
   EXPECT_TRUE(rebuilt_->begins_with(60)) << "what is offered is not put off";
 }
 
+TEST_F(RebuildHandover, FreesItsSpectraOnlyOnceTheyAreTaken) {
+  take_through(50);
+  rebuilt_->release();
+  EXPECT_EQ(rebuilt_->spectra().sums().n_samples, 51U);
+  rebuilt_->note_spectra_taken();
+  rebuilt_->release();
+  rebuilt_->release();
+}
+
 TEST_F(RebuildHandover, IsPutOffWhereItIsNotReady) {
   rebuilt_->announce(20);
   take_through(10);

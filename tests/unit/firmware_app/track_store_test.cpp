@@ -103,6 +103,39 @@ TEST(TrackStore, OfALongRunKeepsTheNewestFrames) {
   EXPECT_EQ(read.sequence, 24U);
 }
 
+// Chunks of a megabyte: some 10 900 frames of 9 points each.
+TEST(TrackStore, GivesBackEveryBitFromAFile) {
+  constexpr std::uint64_t kFrames = 40'000, kSlots = 30'000;
+  constexpr std::size_t kBytes = 24 + 8 * kPoints;
+  TrackStore in_memory(frame_of(0), kSlots * kBytes, 0);
+  TrackStore in_file(frame_of(0), kSlots * kBytes, 0, ::testing::TempDir());
+  const TrackLattice lattice(frame_of(0));
+  core::TrackFrame a = frame_of(0), b = a;
+  const auto expect_same_frames = [&] {
+    ASSERT_EQ(in_file.n_frames(), in_memory.n_frames());
+    for (std::size_t i = 0; i < in_memory.n_frames(); i += 7) {
+      ASSERT_EQ(in_file.read(i, a), in_memory.read(i, b));
+      expect_same(a, b);
+    }
+  };
+  for (std::uint64_t k = 0; k < kFrames; ++k) {
+    core::TrackFrame frame = frame_of(k);
+    lattice.round(frame);
+    in_memory.add(frame, 1 + k % 2);
+    in_file.add(frame, 1 + k % 2);
+    if (k == 25'000) expect_same_frames();
+  }
+  expect_same_frames();
+}
+
+TEST(TrackStore, KeepsInMemoryWhatNoFileTakes) {
+  TrackStore store(frame_of(0), 1 << 20, 0, "/nowhere/at/all");
+  for (std::uint64_t k = 0; k < 30'000; ++k) store.add(frame_of(k), 1);
+  core::TrackFrame read = frame_of(0);
+  (void)store.read(store.n_frames() - 1, read);
+  EXPECT_EQ(read.sequence, 29'999U);
+}
+
 TEST(TrackStore, AnHourOf64PointsFitsInto64MB) {
   core::TrackFrame keyframe;
   keyframe.points.resize(64);
