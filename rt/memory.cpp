@@ -40,6 +40,12 @@ void keep_freed_memory() noexcept {
   mallopt(M_MMAP_MAX, 0);
 }
 
+// Setting it also ends its adaptation: one freed block of 32 MB would leave all smaller ones to the heap.
+void give_back_large_blocks() noexcept {
+  constexpr int kLargeBytes = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargeBytes);
+}
+
 // A separate function, so that its stack frame is released on return.
 [[gnu::noinline]] void prefault_stack(std::size_t n_bytes) noexcept {
   constexpr std::size_t kLeastPage = 4096, kSpare = 32 * 1024;

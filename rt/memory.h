@@ -13,6 +13,10 @@ namespace rt {
 // the memory once, it is mapped for the run path. Process-wide; call it before set-up.
 void keep_freed_memory() noexcept;
 
+// The opposite: blocks of a megabyte or more come from new pages, which go back to the system when they are freed;
+// otherwise the heap keeps them, in pieces, wherever a thread has once used much memory. Process-wide.
+void give_back_large_blocks() noexcept;
+
 // Touches `n_bytes` of the calling thread's stack, so that its first deep call causes no page fault; fewer if the stack
 // is smaller. May allocate: for a thread's set-up only.
 void prefault_stack(std::size_t n_bytes) noexcept;

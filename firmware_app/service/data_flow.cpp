@@ -10,7 +10,10 @@ namespace {
 
 // Before anything is allocated and before the camera runs: locking memory takes as long as several frames.
 std::string keep_memory(const AppConfig& config) {
-  if (!config.rt.lock_memory) return {};
+  if (!config.rt.lock_memory) {
+    rt::give_back_large_blocks();
+    return {};
+  }
   rt::keep_freed_memory();
   return rt::lock_memory();
 }
