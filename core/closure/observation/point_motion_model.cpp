@@ -84,11 +84,8 @@ void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::
 void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low,
                                  RungSet band) {
   const RungSet wanted = band == 0 ? rungs_.up_to(kLowBand_hz) : band;
-  if (low.empty()) {
-    cosines_.resize(0, 0);
-  } else if (wanted != band_ || cosines_.size() == 0) {
-    cosines_ = rungs_.cosines(n_frames_, wanted);
-  }
+  if (low.empty()) cosines_.resize(0, 0);
+  if (!low.empty() && (wanted != band_ || cosines_.size() == 0)) cosines_ = rungs_.cosines(n_frames_, wanted);
   band_ = wanted;
   full_ = full;
   low_ = low;
