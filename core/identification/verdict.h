@@ -27,7 +27,7 @@ struct VerdictRules {
   double no_peak_sigmas = 2.0;          // ... and within this many of its sigmas
   double max_noisy_share = 0.6;         // above, the base moves as the structure does
   bool base_is_input = false;           // the base is a measured input: its component is 0 in every shape
-  double max_alike_mac = 0.9;           // MAC of the other channels with equal motion ...
+  double max_alike_mac = 0.5;           // MAC of the other channels with equal motion ...
   double most_input_coherence = 0.5;    // ... and coherence with the input, without a resonance: a peak of the input
   double max_uniform_mac = 0.98;        // MAC with equal motion of all channels, i.e. camera translation
   double max_witness_share = 0.9;       // share of the shape's square that is camera motion according to static regions
