@@ -12,7 +12,7 @@ namespace core {
 // G the response to the ground: the base measures u + c and a region at rest c, and given both of them G is left.
 //
 // A base is no input if it moves in a part of the record only: given an earthquake, the little that the rest of the
-// record tells is lost. A region declared static is no input if it explains half of the channels' motion against one
+// record holds is lost. A region declared static is no input if it explains half of the channels' motion against one
 // another: then it moves with the structure.
 [[nodiscard]] std::vector<int> measured_inputs(const CpsdSums& sums, const std::vector<ChannelInfo>& channels);
 
