@@ -133,6 +133,8 @@ TEST(Verdict, AMeasuredInputsPeakIsFollowedAlikeAndCoherentlyWithoutAResonance) 
   peak.coherence = 0.9, peak.gain = 8.0;
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the structure answers";
   peak.gain = 1.1, cluster.representative.shape = {0.0, 0.2, 0.6, 1.0};
+  EXPECT_EQ(judged_so(), Verdict::kInputPeak) << "all channels move one way, by unequal amounts";
+  cluster.representative.shape = {0.0, -0.9, 0.6, 1.0};
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the channels move against one another";
   rules.base_is_input = false, cluster.representative.shape = {0.0, 0.9, 0.95, 1.0};
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base is an output: its share decides";
