@@ -56,6 +56,7 @@ void print_trust_camera(const GeometryOptions& options) {
       Flown out;
       out.still = out.shaken = trust_flight(drive, seed, duration_s, options);
       out.words = shake_camera(out.shaken, drive, seed);
+      out.still.job.file.scene.camera.alpha_px = out.shaken.job.scene().camera.alpha_px;
       out.of_still = analyse_flight(out.still.job, out.still.setup, tried);
       out.of_shaken = analyse_flight(out.shaken.job, out.shaken.setup, tried);
       return out;

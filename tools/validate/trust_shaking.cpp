@@ -11,6 +11,7 @@
 #include "core/simulation/camera/recorded_motion.h"
 #include "core/simulation/structure/structure_response.h"
 #include "core/types/constants.h"
+#include "tools/validate/closure_tracks_record.h"
 #include "tools/validate/drawn_scene.h"
 
 namespace tools {
@@ -110,8 +111,10 @@ std::string shake_camera(TrustFlight& flight, Drive drive, std::uint64_t seed) {
   add_gust(held_place(drive == Drive::kWind ? force_on_last_body(scene) : own_force(scene, seed), hold_hz, hold_damping,
                       gust_mm),
            scene);
+  while (!holds_the_view(scene)) scene.camera.alpha_px *= 0.98;
   core::simulation::validate(scene);
-  return fmt::format("gimbal {:.2f} Hz {:.3f} deg, gusts {:.2f} mm", scene.vibration.centre_hz, gimbal_deg, gust_mm);
+  return fmt::format("gimbal {:.2f} Hz {:.3f} deg, gusts {:.2f} mm, focal length {:.0f} px", scene.vibration.centre_hz,
+                     gimbal_deg, gust_mm, scene.camera.alpha_px);
 }
 
 }  // namespace tools
