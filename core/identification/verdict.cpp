@@ -43,6 +43,12 @@ bool has_resonance(const BaseResponse& response, const VerdictRules& rules) noex
                      response.relative > rules.least_relative_rise * response.relative_without);
 }
 
+// Known to be without a peak there.
+bool base_is_smooth(const BaseResponse& response, const VerdictRules& rules) noexcept {
+  return response.base_is_known && response.base_peak < rules.no_base_peak &&
+         std::abs(response.base_peak) < rules.no_peak_sigmas * response.base_peak_sigma;
+}
+
 // An input peak is a peak of the base's own spectrum that the structure follows. Where the base spectrum has none, the
 // base component of a weak mode's shape is estimation noise or broadband camera motion.
 bool moves_with_base(double base_share, const BaseResponse& response, const VerdictRules& rules) noexcept {
@@ -52,8 +58,7 @@ bool moves_with_base(double base_share, const BaseResponse& response, const Verd
   if (base_share > rules.max_noisy_share) return true;
   if (base_share <= rules.open_base_share)
     return response.base_peak > rules.most_base_peak && !has_resonance(response, rules);
-  return !(response.base_peak < rules.no_base_peak &&
-           std::abs(response.base_peak) < rules.no_peak_sigmas * response.base_peak_sigma);
+  return !base_is_smooth(response, rules);
 }
 
 // MAC of the other channels with equal motion: a peak of the input below the first mode, or camera motion, moves them
@@ -70,11 +75,12 @@ double alike_mac(const Mode& mode, const std::vector<ChannelInfo>& channels) {
 }
 
 // What a measured input explains is taken out of the identification, except for the part that its own noise hides: a
-// peak that the channels follow alike, coherent with the input, without a resonance of the response.
+// peak of the input that the channels follow alike, coherent with it, without a resonance of the response.
 bool follows_input(const Mode& mode, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
                    const VerdictRules& rules) {
   return rules.base_is_input && alike_mac(mode, channels) > rules.max_alike_mac &&
-         response.coherence > rules.most_input_coherence && !has_resonance(response, rules);
+         response.coherence > rules.most_input_coherence && !has_resonance(response, rules) &&
+         !base_is_smooth(response, rules);
 }
 
 std::string base_evidence(const BaseResponse& response) {

@@ -136,7 +136,12 @@ TEST(Verdict, AMeasuredInputsPeakIsFollowedAlikeAndCoherentlyWithoutAResonance) 
   EXPECT_EQ(judged_so(), Verdict::kInputPeak) << "all channels move one way, by unequal amounts";
   cluster.representative.shape = {0.0, -0.9, 0.6, 1.0};
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the channels move against one another";
-  rules.base_is_input = false, cluster.representative.shape = {0.0, 0.9, 0.95, 1.0};
+  cluster.representative.shape = {0.0, 0.9, 0.95, 1.0};
+  peak.base_is_known = true, peak.base_peak = 0.1, peak.base_peak_sigma = 0.2;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base's own spectrum has no peak";
+  peak.base_peak = 3.0;
+  EXPECT_EQ(judged_so(), Verdict::kInputPeak) << "it has one";
+  rules.base_is_input = false;
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base is an output: its share decides";
 }
 
