@@ -10,19 +10,19 @@
 #include "core/identification/combination_lines.h"
 #include "core/identification/field_shapes.h"
 #include "core/identification/line_evidence.h"
+#include "core/identification/line_modes.h"
+#include "core/identification/measured_inputs.h"
 #include "core/identification/mode_sigmas.h"
-#include "core/identification/model_fit.h"
-#include "core/identification/neighbour_leakage.h"
 #include "core/identification/phase_verdict.h"
+#include "core/identification/record_poles.h"
 #include "core/identification/similar_modes.h"
 #include "core/identification/spectral_peaks.h"
+#include "core/identification/steady_lines.h"
 #include "core/identification/verdict.h"
 
 namespace core {
 
 namespace {
-
-constexpr double kLeastPresence = 0.25;  // poles found in fewer orders are over-modelling artefacts: no verdict
 
 void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.n_samples = sums.n_samples;
@@ -32,50 +32,6 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
   estimate.remembered_s = sums.n_remembered() / sums.rate_hz;
   estimate.resolution_hz = resolution_hz(sums);
-}
-
-// Poles of all orders: observed, unfolded, and the leakage of a neighbour into each. The lists are parallel.
-struct Poles {
-  std::vector<PoleOfOrder> observed;
-  std::vector<OrderPole> unfolded;
-  std::vector<std::optional<NeighbourLeakage>> leaks;
-};
-
-double apparent_hz(const DiscretePole& pole, double rate_hz) {
-  return std::abs(std::arg(pole.lambda)) * rate_hz / (2.0 * std::numbers::pi);
-}
-
-Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding,
-                      const CameraLeakage& camera) {
-  Poles poles;
-  for (std::size_t i = 0; i < orders.size(); ++i) {
-    std::vector<DiscretePole> found = poles_of_order(realisation, orders[i]);
-    std::vector<std::vector<std::complex<double>>> shapes;
-    for (const DiscretePole& pole : found) {
-      const double hz = apparent_hz(pole, folding.rate_hz);
-      shapes.push_back(camera.without(pole.shape, hz, camera.examine(pole.shape, hz).is_doubtful));
-    }
-    UnfoldedOrder unfolded = unfold_order(found, shapes, folding);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      poles.unfolded.push_back({static_cast<int>(i), std::move(unfolded.poles[k])});
-      poles.observed.push_back({orders[i], std::move(found[k])});
-      poles.leaks.push_back(std::move(unfolded.leaks[k]));
-    }
-  }
-  return poles;
-}
-
-std::vector<PoleCluster> lines_of(const std::vector<OrderPole>& poles, int n_orders) {
-  std::vector<PoleCluster> lines = cluster_poles(poles, n_orders);
-  join_split_lines(lines, n_orders);
-  std::erase_if(lines, [](const PoleCluster& line) { return line.presence < kLeastPresence; });
-  return lines;
-}
-
-std::vector<int> orders_from(int first, const Realisation& realisation) {
-  std::vector<int> orders;
-  for (int k = 0; k < kMostOrders && first + 2 * k <= realisation.a.rows(); ++k) orders.push_back(first + 2 * k);
-  return orders;
 }
 
 void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& orders, ModalEstimate& estimate) {
@@ -90,11 +46,9 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
 struct Fitted {
   const CpsdSums& sums;
   const std::vector<ChannelRecord>& records;
-  const ModelFit& fit;
   const FoldingConfig& folding;
   const CameraLeakage& camera;
-  const std::vector<int>& orders;
-  const Poles& poles;
+  const RecordPoles& poles;
 };
 
 VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit, const CpsdSums& sums) {
@@ -115,17 +69,16 @@ struct JudgedChannels {
   const std::vector<ChannelInfo>&all, &outputs;
 };
 
-std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluster>& lines,
-                              const JudgedChannels& channels, const VerdictRules& rules) {
+std::vector<Mode> judge_lines(const Fitted& fitted, const JudgedChannels& channels, const VerdictRules& rules) {
   std::vector<Mode> modes;
   SpectralLineTest examiner(fitted.sums, fitted.folding);
-  for (const PoleCluster& line : lines) {
+  for (const PoleCluster& line : fitted.poles.lines) {
     SpectralLineEvidence evidence = examiner.examine(line.representative);
     const DiscretePole& observed = fitted.poles.observed[line.i_representative].pole;
     const CameraLeakage::Finding found = fitted.camera.examine(observed.shape, line.apparent_hz);
     evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
     const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz, line.damping_ratio);
-    modes.push_back(judge(line, response, channels.outputs, fitted.orders, rules, evidence));
+    modes.push_back(judge(line, response, channels.outputs, fitted.poles.orders, rules, evidence));
     modes.back().may_be_hz = other_frequencies(line.representative, fitted.folding, rules.least_fold_margin);
     const int lone = lone_masked_channel(modes.back().shape, fitted.records);
     if (lone < 0) continue;
@@ -211,29 +164,41 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   estimate.channels = records;
   estimate.channels.resize(n_outputs());  // without witnesses, which come last
   for (SpectralPeak& peak : estimate.peaks) peak.share.resize(n_outputs());
-  ModelFit fit;
-  estimate.status = fit_model(sums, config_, channels_, fit);
-  if (estimate.status != "ok") return estimate;
-  if (fit.order_is_clear) {
-    estimate.model_order = fit.order;
-  } else {
-    estimate.status =
-        "order unclear: no gap in the canonical correlations; taken from order " + std::to_string(fit.order) + " on";
+  // Of a full field only the core's lines would be known.
+  const bool subtracts = !config_.as_published && field == nullptr;
+  std::vector<SteadyLine> lines;
+  if (subtracts) lines = find_steady_lines(sums, channels_, measured_inputs(sums, channels_));
+  if (lines.empty()) {
+    identify_modes(sums, records, field, estimate);
+    return estimate;
   }
-  const std::vector<int> orders = orders_from(fit.order, fit.realisation);
+  identify_modes(without_lines(sums, lines), records, field, estimate);
+  for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding_config(sums.rate_hz)))
+    estimate.rejected.push_back(std::move(line));
+  return estimate;
+}
+
+void Identifier::identify_modes(const CpsdSums& sums, const std::vector<ChannelRecord>& records, FieldShapes* field,
+                                ModalEstimate& estimate) const {
   const FoldingConfig folding = folding_config(sums.rate_hz);
   const CameraLeakage camera(sums, delays_as_undone());
-  const Poles poles = poles_of_orders(fit.realisation, orders, folding, camera);
-  const std::vector<PoleCluster> lines = config_.as_published
-                                             ? lines_of_one_order(poles.unfolded)
-                                             : lines_of(poles.unfolded, static_cast<int>(orders.size()));
-  const Fitted fitted{sums, records, fit, folding, camera, orders, poles};
+  RecordPoles poles = find_poles(sums, config_, channels_, folding, camera);
+  estimate.status = poles.status;
+  if (poles.status != "ok") return;
+  if (poles.fit.order_is_clear) {
+    estimate.model_order = poles.fit.order;
+  } else {
+    estimate.status = "order unclear: no gap in the canonical correlations; taken from order " +
+                      std::to_string(poles.fit.order) + " on";
+  }
+  const std::vector<PoleCluster>& lines = poles.lines;
   const JudgedChannels channels{channels_, outputs_};
-  const VerdictRules rules = verdict_rules(config_, fit, sums);
-  std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
-                                                 : judge_lines(fitted, lines, channels, rules);
+  const VerdictRules rules = verdict_rules(config_, poles.fit, sums);
+  std::vector<Mode> modes = config_.as_published
+                                ? judge_published_lines(lines, channels, rules)
+                                : judge_lines({sums, records, folding, camera, poles}, channels, rules);
   const Sigmas sigmas =
-      state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded, poles.leaks}, lines, modes);
+      state_sigmas({sums, poles.fit, folding, camera, poles.observed, poles.unfolded, poles.leaks}, lines, modes);
   estimate.degrees_of_freedom = sigmas.degrees_of_freedom;
   std::vector<bool> along(modes.size(), false);
   if (!config_.as_published) {
@@ -242,7 +207,7 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
     reject_twins(modes);
     along = state_along_line(sigmas, modes);
   }
-  note_poles(poles.unfolded, orders, estimate);
+  note_poles(poles.unfolded, poles.orders, estimate);
   const std::vector<std::size_t> listed = list_modes(std::move(modes), lines, estimate);
   if (field != nullptr) {
     std::vector<FieldLine> of_field;
@@ -251,9 +216,8 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
       of_field.push_back({poles.observed[pole], lines[i].representative, along[i], sigmas.scatter[i].has_value(),
                           poles.leaks[pole].has_value()});
     }
-    *field = FieldShapes(sums, std::move(fit), folding, std::move(of_field));
+    *field = FieldShapes(sums, std::move(poles.fit), folding, std::move(of_field));
   }
-  return estimate;
 }
 
 }  // namespace core

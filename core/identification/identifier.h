@@ -57,6 +57,8 @@ class Identifier {
  private:
   [[nodiscard]] ModalEstimate identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records,
                                            FieldShapes* field) const;
+  void identify_modes(const CpsdSums& sums, const std::vector<ChannelRecord>& records, FieldShapes* field,
+                      ModalEstimate& estimate) const;
   [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part, FieldShapes* field) const;
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums, FieldShapes* field) const;
   [[nodiscard]] Identifier with_channels(const std::vector<std::size_t>& kept) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct SpectralLineEvidence {
   std::optional<double> late_damping_ratio;
   // Share of the correlation that remains there, 0..1; for a decayed mode it is estimation noise.
   double late_share = 0.0;
+  // Of a steady line (steady_lines.h): segments over which its phase advances evenly, and its coherence. 0: a pole.
+  std::uint64_t steady_segments = 0;
+  double steady_coherence = 0.0;
   double witness_share = 0.0;  // share of the shape's square that follows the static region (camera_leakage.h)
   bool witness_moves = false;  // ... which is not static at this frequency
 };

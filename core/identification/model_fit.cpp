@@ -17,6 +17,9 @@ constexpr int kLeastBlockRows = 6;
 // Limit of the Hankel matrix's rows over all channels: 40 block rows of 6 channels. With few channels there are more
 // block rows, which separates close modes.
 constexpr int kMostRows = 240;
+// ... and where lines are closer than their widths. More rows everywhere also fit more poles to noise.
+constexpr int kMostRowsOfClose = 360;
+constexpr std::size_t kMostChannelsOfClose = 8;
 // The weights are covariance matrices of block_rows * channels rows: with fewer samples per row they fit the noise, and
 // every singular value is close to 1.
 constexpr double kSamplesPerRow = 16.0;
@@ -54,13 +57,16 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
   return spread;
 }
 
-int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std::size_t n_channels) {
-  if (config.block_rows > 0) return config.block_rows;
-  const double rows = std::min<double>(kMostRows, sums.n_remembered() / kSamplesPerRow);
+int block_rows_of(const CpsdSums& sums, int most_rows, std::size_t n_channels) {
+  const double rows = std::min<double>(most_rows, sums.n_remembered() / kSamplesPerRow);
   // The weights contain the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
   const int longest = sums.n_fft / 16;
   return std::clamp(static_cast<int>(rows) / static_cast<int>(n_channels), kLeastBlockRows,
                     std::max(kLeastBlockRows, longest));
+}
+
+int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std::size_t n_channels) {
+  return config.block_rows > 0 ? config.block_rows : block_rows_of(sums, kMostRows, n_channels);
 }
 
 EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
@@ -151,6 +157,13 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   if (out.order == 0) out.last_first_i_order = -1;
   out.order = std::max(2, out.order);
   return "ok";
+}
+
+int longer_block_rows(const CpsdSums& sums, const IdentifierConfig& config, const ModelFit& fit,
+                      std::size_t n_channels) {
+  if (config.block_rows > 0 || n_channels > kMostChannelsOfClose) return 0;
+  const int longer = block_rows_of(sums, kMostRowsOfClose, n_channels);
+  return longer > fit.era.block_rows ? longer : 0;
 }
 
 }  // namespace core

@@ -8,7 +8,8 @@ namespace core {
 namespace {
 
 constexpr double kChance = 2.5;  // times the expected share beside the line: 95 % of shapes in phase have less
-constexpr double kLeastCertainMpc = 0.85;  // of a folded mode
+constexpr double kLeastCertainMpc = 0.85;  // of a mode whose alias order was chosen ...
+constexpr double kClearFoldMargin = 0.65;  // ... unless every other one is this much worse
 constexpr double kLeastKnownWidth = 0.35;  // sigma of the frequency, of zeta f (half the half-power width)
 
 bool is_open(const Mode& mode) {
@@ -32,7 +33,7 @@ void reject(double min_mpc, Mode& mode) {
 void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>& modes) {
   for (std::size_t i = 0; i < modes.size(); ++i) {
     Mode& mode = modes[i];
-    const bool is_uncertain_fold = mode.fold_n && mode.mpc < kLeastCertainMpc;
+    const bool is_uncertain_fold = mode.fold_n && mode.mpc < kLeastCertainMpc && *mode.fold_margin < kClearFoldMargin;
     if (!is_open(mode) || (mode.mpc >= min_mpc && !is_uncertain_fold)) continue;
     if (is_within_chance(mode, sigmas.scatter[i])) {
       mode.reason += "; its phases differ no more than they scatter";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -22,6 +23,7 @@ constexpr double kStableMacTolerance = 0.3;
 constexpr double kFarApart = 2.0;
 constexpr double kSplitFrequency = 0.03;  // relative
 constexpr double kSplitMac = 0.95;
+constexpr double kAlternating = 0.5;  // of half the half-power width
 
 double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
   const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
@@ -112,6 +114,22 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
   return cluster;
 }
 
+void take_members(PoleCluster& line, const PoleCluster& other, int n_orders) {
+  std::set<int> orders(line.i_orders.begin(), line.i_orders.end());
+  orders.insert(other.i_orders.begin(), other.i_orders.end());
+  line.i_orders.assign(orders.begin(), orders.end());
+  line.members.insert(line.members.end(), other.members.begin(), other.members.end());
+  line.first_i_order = line.i_orders.front();
+  line.presence = static_cast<double>(orders.size()) / n_orders;
+}
+
+bool in_other_orders(const PoleCluster& a, const PoleCluster& b) {
+  std::vector<int> both;
+  std::set_intersection(a.i_orders.begin(), a.i_orders.end(), b.i_orders.begin(), b.i_orders.end(),
+                        std::back_inserter(both));
+  return both.empty();
+}
+
 }  // namespace
 
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
@@ -125,12 +143,29 @@ void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
     };
     for (std::size_t j = clusters.size(); j-- > i + 1;) {
       if (!is_split(clusters[j])) continue;
-      std::set<int> orders(line.i_orders.begin(), line.i_orders.end());
-      orders.insert(clusters[j].i_orders.begin(), clusters[j].i_orders.end());
-      line.i_orders.assign(orders.begin(), orders.end());
-      line.members.insert(line.members.end(), clusters[j].members.begin(), clusters[j].members.end());
-      line.first_i_order = line.i_orders.front();
-      line.presence = static_cast<double>(orders.size()) / n_orders;
+      take_members(line, clusters[j], n_orders);
+      clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+}
+
+void join_alternating_lines(std::vector<PoleCluster>& clusters, int n_orders) {
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const auto& a, const auto& b) { return a.representative.mpc > b.representative.mpc; });
+  const auto near_hz = [](const PoleCluster& a, const PoleCluster& b) {
+    const double damping = std::min(std::abs(a.damping_ratio), std::abs(b.damping_ratio));
+    return std::min(kAlternating * damping, kStableFrequencyTolerance) * a.apparent_hz;
+  };
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    PoleCluster& line = clusters[i];
+    for (std::size_t j = i + 1; j < clusters.size();) {
+      const bool is_one = std::abs(clusters[j].apparent_hz - line.apparent_hz) < near_hz(line, clusters[j]) &&
+                          in_other_orders(line, clusters[j]);
+      if (!is_one) {
+        ++j;
+        continue;
+      }
+      take_members(line, clusters[j], n_orders);
       clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
     }
   }

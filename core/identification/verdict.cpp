@@ -83,6 +83,13 @@ bool follows_input(const Mode& mode, const BaseResponse& response, const std::ve
          !base_is_smooth(response, rules);
 }
 
+// What imperfect regression on the input leaves of a broad peak: the base explains all motion there, and the response
+// to it has no maximum.
+bool is_left_of_input(const Mode& mode, const BaseResponse& response, const VerdictRules& rules) noexcept {
+  return rules.base_is_input && mode.damping_ratio > rules.least_broad_damping &&
+         response.coherence > rules.all_input_coherence && response.gain <= rules.no_gain_rise * response.gain_beside;
+}
+
 std::string base_evidence(const BaseResponse& response) {
   if (!(response.base_peak > 0.0)) return {};
   return in_words(" (its own spectrum has a peak there, %.2g times the spectrum beside it)", response.base_peak);
@@ -136,6 +143,15 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
     set(mode, Verdict::kInputPeak,
         in_words("all channels follow the base alike (coherence %.2f), and their response to it has no peak",
                  response.coherence));
+  } else if (is_left_of_input(mode, response, rules)) {
+    set(mode, Verdict::kInputPeak,
+        in_words("the base explains the motion (coherence %.2f), and the response to it has no peak",
+                 response.coherence));
+  } else if (line.steady_segments > 0) {
+    set(mode, Verdict::kHarmonic,
+        in_words("a steady line: its phase advances evenly over %d segments (coherence %.2f); the modes are identified "
+                 "without it",
+                 static_cast<int>(line.steady_segments), line.steady_coherence));
   } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping &&
              line.late_share > rules.min_late_share) {
     set(mode, Verdict::kHarmonic,

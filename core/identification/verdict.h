@@ -29,6 +29,9 @@ struct VerdictRules {
   bool base_is_input = false;           // the base is a measured input: its component is 0 in every shape
   double max_alike_mac = 0.5;           // MAC of the other channels with equal motion ...
   double most_input_coherence = 0.5;    // ... and coherence with the input, without a resonance: a peak of the input
+  double least_broad_damping = 0.02;    // a broader pole with ...
+  double all_input_coherence = 0.95;    // ... this coherence with the input is a mode only if ...
+  double no_gain_rise = 1.1;            // ... the response to it is larger than beside by this factor
   double max_uniform_mac = 0.98;        // MAC with equal motion of all channels, i.e. camera translation
   double max_witness_share = 0.9;       // share of the shape's square that is camera motion according to static regions
   double min_camera_mac = 0.95;         // MAC with a vibrating camera, at a frequency where no mode is expected

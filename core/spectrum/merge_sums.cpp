@@ -94,6 +94,7 @@ void SumOfRecords::add(const RecordSums& record) {
     total_.channels = record.channels;
     total_.sums = record.sums;
     total_.sums.blocks.clear();
+    total_.sums.segments = {};  // phases of different records have nothing in common
     take_blocks(record.sums);
     is_empty_ = false;
     return;

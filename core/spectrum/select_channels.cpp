@@ -51,6 +51,7 @@ CpsdSums select_channels(const CpsdSums& sums, const std::vector<std::size_t>& k
                           selected(block.mask_sum, per_bin, pairs)});
   }
   out.n_blocks = out.blocks.size();
+  if (sums.segments.n_room() > 0) out.segments = sums.segments.of_channels(keep);
   return out;
 }
 

@@ -18,6 +18,7 @@ void WelchCpsd::fade() noexcept {
   };
   scale(sums_.data_sum), scale(sums_.mask_sum);
   sums_.weight.fade(kept_per_hop_);
+  sums_.segments.fade(kept_per_hop_);
   for (std::size_t b = 0; b < sums_.n_blocks; ++b) {
     scale(sums_.blocks[b].data_sum), scale(sums_.blocks[b].mask_sum);
     sums_.blocks[b].weight.fade(kept_per_hop_);

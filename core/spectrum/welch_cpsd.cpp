@@ -23,6 +23,8 @@ void check(const WelchConfig& config) {
     throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
   if (config.n_blocks < 0 || config.n_blocks % 2 != 0)
     throw std::invalid_argument("WelchCpsd: number of blocks must be even and not negative");
+  if (config.n_kept_segments < 0)
+    throw std::invalid_argument("WelchCpsd: number of kept segments must not be negative");
   if (!(config.forget_s >= 0.0) || std::isinf(config.forget_s))
     throw std::invalid_argument("WelchCpsd: forget_s must be a time, or 0 for never");
   if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
@@ -66,6 +68,9 @@ CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
     block.data_sum.assign(size, 0.0);
     block.mask_sum.assign(size, 0.0);
   }
+  sums.segments =
+      SegmentSpectra(static_cast<std::size_t>(config.n_kept_segments), static_cast<std::size_t>(config.n_channels),
+                     static_cast<std::size_t>(sums.n_bins()), window_a0(config.window));
   return sums;
 }
 
@@ -98,6 +103,7 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   by_real_.assign(2 * static_cast<std::size_t>(config.n_channels), 0.0);
   by_imaginary_ = by_real_;
   mask_.assign(bins, 0.0);
+  seen_share_.assign(static_cast<std::size_t>(config.n_channels), 0.0F);
 }
 
 void WelchCpsd::restart(double rate_hz) noexcept {
@@ -105,6 +111,7 @@ void WelchCpsd::restart(double rate_hz) noexcept {
   sums_.n_segments = sums_.n_samples = sums_.n_missing = 0;
   sums_.weight = {};
   sums_.n_blocks = 0;
+  sums_.segments.clear();
   std::fill(sums_.data_sum.begin(), sums_.data_sum.end(), Complex());
   std::fill(sums_.mask_sum.begin(), sums_.mask_sum.end(), Complex());
   for (CpsdBlock& block : sums_.blocks) block.n_segments = 0, block.weight = {};
@@ -205,8 +212,20 @@ void WelchCpsd::accumulate_segment() noexcept {
     block.weight.add_one();
     add_products(one_mask, block.data_sum, block.mask_sum);
   }
+  keep_spectra(one_mask);
   ++sums_.n_segments;
   n_new_ = 0;
+}
+
+void WelchCpsd::keep_spectra(bool one_mask) noexcept {
+  if (sums_.segments.n_room() == 0) return;
+  const auto bins = static_cast<std::size_t>(fft_.n_bins());
+  double whole = 0.0;
+  for (int t = 0; t < n_filled_; ++t) whole += window_[static_cast<std::size_t>(t)];
+  for (std::size_t c = 0; c < seen_share_.size(); ++c)
+    seen_share_[c] = whole > 0.0 ? static_cast<float>(mask_[one_mask ? 0 : c * bins].real() / whole) : 0.0F;
+  const auto n = static_cast<std::uint64_t>(n_filled_);
+  sums_.segments.add({sums_.n_samples - n, n, 1.0}, seen_share_, data_);
 }
 
 void WelchCpsd::transform_channel(int channel) noexcept {

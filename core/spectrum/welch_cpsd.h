@@ -28,6 +28,8 @@ struct WelchConfig {
   int n_blocks = 20;
   // A segment is weighted by exp(-age / forget_s), for a structure that changes. 0 = all segments have equal weight.
   double forget_s = 0.0;
+  // Newest segments whose spectra are kept with their phases, for steady lines (segment_spectra.h); 0 = none.
+  int n_kept_segments = 0;
   bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
   // Single samples that their neighbours in time and the other channels do not allow are masked and counted
   // (outlier_gate.h, innovation_gate.h): for displacements from pictures. Not for decimated series, whose modes reach
@@ -91,6 +93,7 @@ class WelchCpsd {
   // one_mask: all channels lack the same samples.
   void add_products(bool one_mask, std::vector<std::complex<double>>& data_sum,
                     std::vector<std::complex<double>>& mask_sum) noexcept;
+  void keep_spectra(bool one_mask) noexcept;
   void fade() noexcept;  // applies forgetting for one hop
   [[nodiscard]] CpsdBlock& current_block() noexcept;
   void make_room() noexcept;  // called when all blocks are in use
@@ -115,6 +118,7 @@ class WelchCpsd {
   std::vector<double> padded_;                  // n_fft
   std::vector<std::complex<double>> data_;      // channels x bins
   std::vector<std::complex<double>> mask_;      // channels x bins; only the first if all are equal
+  std::vector<float> seen_share_;               // channels
   std::vector<double> by_real_, by_imaginary_;  // one bin of all channels
 };
 

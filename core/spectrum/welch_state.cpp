@@ -39,6 +39,7 @@ void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
     archive.array(block.data_sum);
     archive.array(block.mask_sum);
   }
+  SegmentSpectra::describe(archive, sums.segments);
   archive.value(self.n_filled_);
   archive.value(self.n_new_);
   archive.value(self.segments_per_block_);
@@ -61,7 +62,7 @@ void WelchCpsd::save(StateWriter& out) const noexcept {
 
 std::size_t WelchCpsd::state_bytes() const noexcept {
   const std::size_t sums = 2 * (sums_.data_sum.size() * sizeof(Complex) + 64);
-  return 512 + (1 + sums_.blocks.size()) * sums + value_.size() * (sizeof(double) + 1) +
+  return 512 + (1 + sums_.blocks.size()) * sums + sums_.segments.state_bytes() + value_.size() * (sizeof(double) + 1) +
          gate_.state().size() *
              (sizeof(OutlierGate::Channel) + sizeof(InnovationGate::Channel) + sizeof(std::uint64_t));
 }
@@ -86,7 +87,9 @@ bool WelchCpsd::is_consistent() const noexcept {
   const bool has_numbers =
       is_finite(sums_.data_sum) && is_finite(sums_.mask_sum) &&
       std::all_of(value_.begin(), value_.end(), [](double x) { return std::isfinite(x); }) &&
-      std::all_of(sums_.blocks.begin(), sums_.blocks.end(), [](const CpsdBlock& block) { return is_finite(block); });
+      std::all_of(sums_.blocks.begin(), sums_.blocks.end(), [](const CpsdBlock& block) { return is_finite(block); }) &&
+      sums_.segments.is_consistent(static_cast<std::uint64_t>(config_.segment)) &&
+      (sums_.segments.n_room() == 0 || sums_.segments.n_added() == sums_.n_segments);
   return has_numbers && gate_.is_consistent() && innovation_gate_.is_consistent() &&
          sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment && n_new_ >= 0 &&
          n_new_ <= n_filled_ && segments_per_block_ > 0;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/types/segment_spectra.h"
+
 namespace core {
 
 // Weight of the segments in a sum: with forgetting, older segments weigh less; otherwise each weighs one.
@@ -41,6 +43,7 @@ struct CpsdSums {
   std::vector<std::complex<double>> mask_sum;  // dimensionless
   std::vector<CpsdBlock> blocks;               // in order; their sum is the sums above; may be empty
   std::size_t n_blocks = 0;                    // number of blocks in use
+  SegmentSpectra segments;                     // the newest segments of the sums; may keep none
 
   [[nodiscard]] int n_bins() const noexcept { return n_fft / 2 + 1; }
   [[nodiscard]] int n_pairs() const noexcept { return n_channels * (n_channels + 1) / 2; }
@@ -49,7 +52,7 @@ struct CpsdSums {
     const double share = n_segments > 0 ? weight.effective() / static_cast<double>(n_segments) : 1.0;
     return share * static_cast<double>(n_samples);
   }
-  // Copies everything except the blocks, for the first channels.
+  // Copies everything except the blocks and the segments, for the first channels.
   void copy_totals(const CpsdSums& other, int n_first) {
     n_channels = n_first, n_fft = other.n_fft, rate_hz = other.rate_hz;
     n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;
@@ -58,7 +61,7 @@ struct CpsdSums {
     n_outlying.resize(n_outlying.empty() ? 0 : static_cast<std::size_t>(n_first), 0);
     copy_pairs(other.data_sum, other.n_channels, data_sum);
     copy_pairs(other.mask_sum, other.n_channels, mask_sum);
-    blocks.clear(), n_blocks = 0;
+    blocks.clear(), n_blocks = 0, segments = {};
   }
   [[nodiscard]] static int pair_index(int i, int j, int n) noexcept { return i * n - i * (i - 1) / 2 + (j - i); }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/geometry/keyframe_view.h"
+#include "core/identification/steady_lines.h"
 #include "core/types/constants.h"
 #include "drivers/host/memory_left.h"
 #include "drivers/storage/attitude_file.h"
@@ -112,6 +113,14 @@ core::MotorLines motor_lines(const AppConfig& config) {
   return core::MotorLines(drivers::read_motors_csv(config.camera.motors_file));
 }
 
+// As many as 4 MB hold, at most 64; fewer than the search for steady lines needs are not kept.
+static int kept_segments(const core::WelchConfig& welch) noexcept {
+  constexpr double kMostBytes = 4e6, kMost = 64.0;
+  const double n_bins = 1.0 + std::bit_ceil(static_cast<unsigned>(welch.segment));
+  const double n = std::min(kMost, kMostBytes / (n_bins * welch.n_channels * sizeof(std::complex<float>)));
+  return n < core::kLeastLineSegments ? 0 : static_cast<int>(n);
+}
+
 core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz,
                                std::size_t n_witnesses) {
   const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
@@ -121,6 +130,7 @@ core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_cha
   out.bridge_losses = true;
   out.gate_outliers = true;
   out.forget_s = spectrum.forget_s;
+  out.n_kept_segments = kept_segments(out);
   require_memory(out, spectra_bytes(out), drivers::memory_left());
   return out;
 }

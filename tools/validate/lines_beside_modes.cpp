@@ -26,7 +26,8 @@ using core::simulation::Scene;
 using core::simulation::TrueMode;
 
 constexpr double kGrid_hz = 50.0;        // of the motion from which a mode's rms is taken
-constexpr double kNearLine = 0.004;      // relative: a pole of the line
+constexpr double kNearMachine = 0.004;   // relative: a pole of a machine's line
+constexpr double kNearRotor_hz = 1.0;    // a pole of a rotor's line, which wanders: 3 sigma
 constexpr double kSameMode = 0.01;       // relative: a pole of a mode
 constexpr double kClear = 0.005;         // relative: least distance of a line from every mode
 constexpr std::array kRatios{1.0, 0.3};  // rms of the line over that of the mode beside it
@@ -76,29 +77,38 @@ const Mode* nearest_mode(const core::ModalEstimate& estimate, double hz) {
 
 bool is_line_verdict(Verdict verdict) { return verdict == Verdict::kHarmonic || verdict == Verdict::kCameraMotion; }
 
-const char* called(const core::ModalEstimate& estimate, double apparent, const Mode* beside) {
+// A line: where it is seen, and how near a pole of its own lies.
+struct Line {
+  double apparent_hz = 0.0, near_hz = 0.0;
+  [[nodiscard]] bool has(const Mode& pole) const { return std::abs(pole.apparent_hz - apparent_hz) < near_hz; }
+};
+
+// No pole of a mode is one of the line.
+const char* called(const core::ModalEstimate& estimate, const Line& line, const std::vector<const Mode*>& true_modes) {
   for (const Mode& mode : estimate.rejected) {
-    if (is_line_verdict(mode.verdict) && std::abs(mode.apparent_hz - apparent) < kNearLine * apparent) return "line";
+    if (is_line_verdict(mode.verdict) && line.has(mode)) return "line";
   }
   for (const Mode& mode : estimate.modes) {
-    if (&mode != beside && std::abs(mode.apparent_hz - apparent) < kNearLine * apparent) return "mode";
+    const bool is_true = std::find(true_modes.begin(), true_modes.end(), &mode) != true_modes.end();
+    if (!is_true && line.has(mode)) return "mode";
   }
   return "absent";
 }
 
 Outcome outcome(const core::ModalEstimate& with, const core::ModalEstimate& without, const std::vector<TrueMode>& modes,
-                double line_hz, double beside_hz) {
+                const Line& line, double beside_hz) {
   Outcome out;
   const Mode *after = nearest_mode(with, beside_hz), *before = nearest_mode(without, beside_hz);
-  out.called = called(with, apparent_hz(line_hz, with.rate_hz), after);
+  std::vector<const Mode*> found;
+  for (const TrueMode& mode : modes) found.push_back(nearest_mode(with, mode.frequency_hz));
+  out.called = called(with, line, found);
   out.beside_off =
       after != nullptr && before != nullptr ? std::abs(after->frequency_hz / before->frequency_hz - 1.0) : std::nan("");
   for (const TrueMode& mode : modes) {
     if (nearest_mode(with, mode.frequency_hz) != nullptr) continue;
     const double seen = apparent_hz(mode.frequency_hz, with.rate_hz);
     out.n_modes_lost_to_lines += std::any_of(with.rejected.begin(), with.rejected.end(), [&](const Mode& pole) {
-      return is_line_verdict(pole.verdict) && std::abs(pole.apparent_hz - seen) < kSameMode * seen &&
-             std::abs(pole.apparent_hz - apparent_hz(line_hz, with.rate_hz)) > kNearLine * seen;
+      return is_line_verdict(pole.verdict) && std::abs(pole.apparent_hz - seen) < kSameMode * seen && !line.has(pole);
     });
   }
   return out;
@@ -126,8 +136,10 @@ std::string line_record(Drive drive, std::uint64_t seed, double duration_s, cons
          apparent_hz(rotor_hz, scene.camera.rate_hz) < 0.5);
 
   std::string out;
-  const auto add = [&](const char* kind, double ratio, double hz, const TrustFlight& changed) {
-    const Outcome found = outcome(analysed(changed), without, modes, hz, modes[beside].frequency_hz);
+  const double rate_hz = scene.camera.rate_hz;
+  const auto add = [&](const char* kind, double ratio, double hz, double near_hz, const TrustFlight& changed) {
+    const Line line{apparent_hz(hz, rate_hz), near_hz};
+    const Outcome found = outcome(analysed(changed), without, modes, line, modes[beside].frequency_hz);
     out +=
         fmt::format("trust-line\t{}\t{}\t{}\t{:g}\t{:.4f}\t{:.4f}\t{}\t{}\t{:.5f}\n", word_for(drive), seed, kind,
                     ratio, hz, modes[beside].frequency_hz, found.called, found.n_modes_lost_to_lines, found.beside_off);
@@ -136,12 +148,12 @@ std::string line_record(Drive drive, std::uint64_t seed, double duration_s, cons
     TrustFlight machine = flight, rotor = flight;
     Scene &of_machine = machine.job.file.scene, &of_rotor = rotor.job.file.scene;
     of_machine.excitation.harmonics.push_back({static_cast<int>(modes.size()), line_hz, ratio * rms_mm[beside]});
-    add("machine", ratio, line_hz, machine);
+    add("machine", ratio, line_hz, kNearMachine * line_hz, machine);
     const double distance_mm = of_rotor.plates.front().z_mm - of_rotor.camera.z_mm;
     of_rotor.rotor.frequency_hz = rotor_hz;
     of_rotor.rotor.yaw_rms_rad = ratio * rms_mm[beside] / distance_mm;
     of_rotor.rotor.roll_rms_rad = of_rotor.rotor.pitch_rms_rad = 0.3 * of_rotor.rotor.yaw_rms_rad;
-    add("rotor", ratio, rotor_hz, rotor);
+    add("rotor", ratio, rotor_hz, kNearRotor_hz, rotor);
   }
   return out;
 }

@@ -83,9 +83,12 @@ TEST(PhaseVerdict, TheAliasOrderOfAFoldedModeNeedsPhases) {
   reject_out_of_phase(0.8, chance_of(1e-4), modes);
   EXPECT_EQ(modes[0].verdict, Verdict::kStructural) << "not folded";
   modes[0].fold_n = -1;
-  std::vector<Mode> again = modes;
+  std::vector<Mode> again = modes, clear = modes;
   reject_out_of_phase(0.8, chance_of(1e-4), modes);
   EXPECT_EQ(modes[0].verdict, Verdict::kAmbiguous);
+  clear[0].fold_margin = 0.7;
+  reject_out_of_phase(0.8, chance_of(1e-4), clear);
+  EXPECT_EQ(clear[0].verdict, Verdict::kStructural) << "every other alias order is far worse";
   reject_out_of_phase(0.8, chance_of(0.1), again);
   EXPECT_EQ(again[0].verdict, Verdict::kStructural) << "within chance";
 }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace core {
@@ -115,6 +117,34 @@ TEST(Stabilisation, JoinsALineThatWasSplit) {
     EXPECT_EQ(cluster.first_i_order, 0);
     EXPECT_NE(cluster.frequency_hz, 4.07) << "the part of more orders gives the numbers";
   }
+}
+
+// The shape of one pole holds more of a neighbour's in some orders, and less in others.
+TEST(Stabilisation, JoinsALineWhoseShapeAlternates) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 10; ++i) {
+    OrderPole one = pole(i, 4.0, 0.01, i % 3 == 0 ? kSecond : kFirst);
+    one.pole.mpc = i % 3 == 0 ? 0.95 : 0.6;
+    poles.push_back(one);
+    poles.push_back(pole(i, 4.2, 0.01, i % 3 == 0 ? kSecond : kFirst));
+    poles.push_back(pole(i, 4.21, 0.01, i % 3 == 0 ? kFirst : kSecond));
+    poles.push_back(pole(i, i % 3 == 0 ? 6.0 : 6.05, 0.01, i % 3 == 0 ? kSecond : kFirst));
+  }
+  std::vector<PoleCluster> clusters = cluster_poles(poles, 10);
+  const std::size_t n_before = clusters.size();
+  join_alternating_lines(clusters, 10);
+  const auto at = [&](double hz) {
+    std::vector<PoleCluster> out;
+    std::copy_if(clusters.begin(), clusters.end(), std::back_inserter(out),
+                 [hz](const PoleCluster& line) { return std::abs(line.apparent_hz - hz) < 0.06; });
+    return out;
+  };
+  ASSERT_EQ(at(4.0).size(), 1U);
+  EXPECT_EQ(at(4.0)[0].presence, 1.0);
+  EXPECT_EQ(at(4.0)[0].members.size(), 10U);
+  EXPECT_NEAR(at(4.0)[0].representative.mpc, 0.95, 1e-12) << "the shape that is more in phase";
+  EXPECT_EQ(at(6.0).size(), 2U) << "another frequency is another pole";
+  EXPECT_EQ(clusters.size(), n_before - 1) << "poles of the same orders are two";
 }
 
 TEST(Stabilisation, NoPolesGiveNoClusters) { EXPECT_TRUE(cluster_poles({}, 15).empty()); }

@@ -145,6 +145,34 @@ TEST(Verdict, AMeasuredInputsPeakIsFollowedAlikeAndCoherentlyWithoutAResonance) 
   EXPECT_EQ(judged_so(), Verdict::kStructural) << "the base is an output: its share decides";
 }
 
+TEST(Verdict, ABroadPoleThatTheInputExplainsNeedsAPeakOfTheResponse) {
+  VerdictRules rules;
+  rules.base_is_input = true;
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.0, -0.9, 0.6, 1.0}, cluster.damping_ratio = 0.04;
+  BaseResponse left{.gain = 1.2, .gain_beside = 1.3, .coherence = 0.99};
+  const auto judged_so = [&] { return judge(cluster, left, channels(), kOrders, rules).verdict; };
+  EXPECT_EQ(judged_so(), Verdict::kInputPeak);
+  left.gain = 2.0;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "the response has a maximum";
+  left.gain = 1.2, left.coherence = 0.9;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "something else moves the structure, too";
+  left.coherence = 0.99, cluster.damping_ratio = 0.01;
+  EXPECT_EQ(judged_so(), Verdict::kStructural) << "narrow poles are not what is left of a broad peak";
+}
+
+TEST(Verdict, ASteadyLineIsAHarmonicUnlessTheCameraMakesIt) {
+  PoleCluster cluster = flawless();
+  cluster.damping_ratio = 0.0;
+  SpectralLineEvidence line;
+  line.steady_segments = 11, line.steady_coherence = 0.97;
+  const auto judged_so = [&] { return judge(cluster, {}, channels(), kOrders, VerdictRules{}, line); };
+  EXPECT_EQ(judged_so().verdict, Verdict::kHarmonic);
+  EXPECT_NE(judged_so().reason.find("11 segments (coherence 0.97)"), std::string::npos) << judged_so().reason;
+  line.camera_mac = 0.99, line.camera_hz = 90.0;
+  EXPECT_EQ(judged_so().verdict, Verdict::kCameraMotion);
+}
+
 TEST(Verdict, ASmallBaseShareIsDecidedByTheAnswerToTheBase) {
   PoleCluster cluster = flawless();
   cluster.representative.shape = {0.2, 0.4, 0.8, 1.0};

@@ -179,6 +179,46 @@ TEST(WelchCpsd, BlocksAreTheRecordInOrderAndAddUpToItsSums) {
   }
 }
 
+TEST(WelchCpsd, KeptSegmentsAddUpToTheSums) {
+  WelchConfig config = config_of(2, 16, 0.5);
+  config.n_kept_segments = 8;
+  WelchCpsd welch(config);
+  push_noise(welch, 2, 60, 3);
+  welch.flush();
+  const CpsdSums& sums = welch.sums();
+  ASSERT_EQ(sums.segments.n_added(), sums.n_segments);
+  ASSERT_EQ(sums.segments.first(), 0U);
+  for (int bin = 0; bin < sums.n_bins(); ++bin) {
+    std::complex<double> sum = 0.0;
+    for (std::uint64_t k = 0; k < sums.segments.n_added(); ++k) {
+      const auto at = static_cast<std::size_t>(bin);
+      sum += std::complex<double>(sums.segments.value(k, 0)[at]) *
+             std::conj(std::complex<double>(sums.segments.value(k, 1)[at]));
+    }
+    const std::complex<double> whole = sums.data_sum[static_cast<std::size_t>(bin * sums.n_pairs() + 1)];
+    EXPECT_NEAR(std::abs(sum - whole), 0.0, 1e-4) << bin;
+  }
+  EXPECT_EQ(sums.segments.segment(1).start, 8U);
+  EXPECT_EQ(sums.segments.segment(sums.n_segments - 1).n_samples, 12U) << "what is left at the end, with its overlap";
+}
+
+TEST(WelchCpsd, OnlyTheNewestSegmentsAreKept) {
+  WelchConfig config = config_of(3, 16, 0.5);
+  config.n_kept_segments = 4;
+  WelchCpsd welch(config);
+  push_noise(welch, 3, 100, 4);
+  const SegmentSpectra& kept = welch.sums().segments;
+  EXPECT_EQ(kept.n_added() - kept.first(), 4U);
+  EXPECT_EQ(kept.segment(kept.first()).start, 8 * kept.first());
+  EXPECT_EQ(kept.seen(kept.first(), 2), 1.0F);
+  const SegmentSpectra some = kept.of_channels({2, 0});
+  EXPECT_EQ(some.n_channels(), 2U);
+  EXPECT_EQ(some.value(kept.first(), 0)[3], kept.value(kept.first(), 2)[3]);
+  EXPECT_EQ(some.value(kept.first(), 1)[5], kept.value(kept.first(), 0)[5]);
+  welch.restart(25.0);
+  EXPECT_EQ(welch.sums().segments.n_added(), 0U);
+}
+
 TEST(WelchCpsd, EmptySumsHaveTheShapeOfRealOnes) {
   const WelchConfig config = config_of(3, 20, 0.5);
   WelchCpsd welch(config);

@@ -22,6 +22,7 @@ WelchConfig config_of(double forget_s) {
   config.n_blocks = 4;
   config.forget_s = forget_s;
   config.bridge_losses = true;
+  config.n_kept_segments = 6;
   return config;
 }
 
