@@ -25,7 +25,6 @@ namespace app {
 namespace {
 
 using core::kNan;
-constexpr std::uint64_t kMostFrames = 1'000'000;
 
 FrameTimes timed(std::vector<std::uint64_t> number, std::vector<double> t_s, double rate_hz) {
   FrameTimes out{std::move(number), std::move(t_s)};
@@ -45,7 +44,7 @@ FrameTimes timed(std::vector<std::uint64_t> number, std::vector<double> t_s, dou
 }
 
 std::size_t n_cells(std::uint64_t first, std::uint64_t last, const std::string& path) {
-  if (last < first || last - first >= kMostFrames)
+  if (last < first || last - first >= kMostRecordFrames)
     throw drivers::FileError(path + ": frame numbers extend over more than a million frames, or go back");
   return static_cast<std::size_t>(last - first) + 1;
 }

@@ -11,6 +11,7 @@
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/replay/full_field.h"
+#include "firmware_app/replay/oversampling.h"
 #include "firmware_app/replay/series_channels.h"
 #include "firmware_app/replay/series_faults.h"
 #include "firmware_app/report/earlier_files.h"
@@ -236,6 +237,10 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
         "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");
   }
   remark_on_segment(result);
+  if (options.identifier.max_frequency_hz == 0.0) {
+    if (std::string remark = remark_on_oversampling(spectra.sums, together.channels); !remark.empty())
+      result.remarks.push_back(std::move(remark));
+  }
   const int base = base_channel(together.channels);
   const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;
   if (base >= 0) result.response = core::response_peaks(spectra.sums, base, top_hz);

@@ -17,8 +17,6 @@
 namespace app {
 namespace {
 
-constexpr std::uint64_t kMostFrames = 1'000'000;
-
 std::size_t n_frames_of(const drivers::TracksFile& file) {  // with those that are missing
   return static_cast<std::size_t>(file.last_sequence - file.first.sequence) + 1;
 }
@@ -86,10 +84,10 @@ TracksRecord read_tracks_record(const std::string& path, const AppConfig& config
 
 TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& given, std::size_t most_frames) {
   const std::size_t n_frames = std::min(n_frames_of(file), std::max<std::size_t>(1, most_frames));
-  if (n_frames > kMostFrames)
+  if (n_frames > kMostRecordFrames)
     throw drivers::FileError(
         fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed; divide the record", file.path,
-                    n_frames, kMostFrames));
+                    n_frames, kMostRecordFrames));
   const AppConfig config = with_axes_of(file, given);
   TracksRecord out;
   const Columns columns(file, config);
