@@ -43,6 +43,7 @@ class LineSearch {
     n_samples_ = whole;
     take_spectra(kept);
     std::vector<std::vector<Complex>> given;
+    given.reserve(inputs.size());
     for (const int input : inputs) given.push_back(spectra_of(kept, static_cast<std::size_t>(input)));
     take_out(std::move(given));
     weigh_channels();
@@ -53,11 +54,12 @@ class LineSearch {
 
   // The line with the most power among those that no mode and no chance explains.
   [[nodiscard]] std::optional<SteadyLine> strongest() const {
+    std::vector<double> power(n_bins_);
+    for (std::size_t bin = 1; bin + 1 < n_bins_; ++bin) power[bin] = power_at(bin);
     std::optional<Candidate> best;
     for (std::size_t bin = 2; bin + 2 < n_bins_; ++bin) {
-      const double power = power_at(bin);
-      if (!(power > 0.0 && power >= power_at(bin - 1) && power >= power_at(bin + 1))) continue;
-      const Candidate here = best_at(bin, power);
+      if (!(power[bin] > 0.0 && power[bin] >= power[bin - 1] && power[bin] >= power[bin + 1])) continue;
+      const Candidate here = best_at(bin, power[bin]);
       if (here.coherence < least_coherence(here.hz)) continue;
       if (!best || here.coherence * here.power > best->coherence * best->power) best = here;
     }

@@ -113,11 +113,15 @@ core::MotorLines motor_lines(const AppConfig& config) {
   return core::MotorLines(drivers::read_motors_csv(config.camera.motors_file));
 }
 
+// Of a spectrum: segments are padded to twice their length.
+static double n_bins_of(const core::WelchConfig& welch) noexcept {
+  return 1.0 + std::bit_ceil(static_cast<unsigned>(welch.segment));
+}
+
 // As many as 4 MB hold, at most 64; fewer than the search for steady lines needs are not kept.
 static int kept_segments(const core::WelchConfig& welch) noexcept {
   constexpr double kMostBytes = 4e6, kMost = 64.0;
-  const double n_bins = 1.0 + std::bit_ceil(static_cast<unsigned>(welch.segment));
-  const double n = std::min(kMost, kMostBytes / (n_bins * welch.n_channels * sizeof(std::complex<float>)));
+  const double n = std::min(kMost, kMostBytes / (n_bins_of(welch) * welch.n_channels * sizeof(std::complex<float>)));
   return n < core::kLeastLineSegments ? 0 : static_cast<int>(n);
 }
 
@@ -137,10 +141,9 @@ core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_cha
 
 double spectra_bytes(const core::WelchConfig& welch) noexcept {
   constexpr double kCopies = 2.0;  // at least: the sums, and those that the identification works on
-  const double n_bins = 1.0 + std::bit_ceil(static_cast<unsigned>(welch.segment));  // padded to twice its length
   const double n_pairs = 0.5 * welch.n_channels * (welch.n_channels + 1.0);
   constexpr double kBytes = 2.0 * sizeof(std::complex<double>);  // data and mask
-  return kCopies * (1.0 + welch.n_blocks) * n_bins * n_pairs * kBytes;
+  return kCopies * (1.0 + welch.n_blocks) * n_bins_of(welch) * n_pairs * kBytes;
 }
 
 void require_memory(const core::WelchConfig& welch, double needed_bytes, std::uint64_t left_bytes) {
