@@ -24,6 +24,8 @@ constexpr double kFarApart = 2.0;
 constexpr double kSplitFrequency = 0.03;  // relative
 constexpr double kSplitMac = 0.95;
 constexpr double kAlternating = 0.5;  // of half the half-power width
+// Relative. Poles of noise are heavily damped: a share of their width alone joins them by chance.
+constexpr double kAlternatingFrequency = 0.003;
 
 double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
   const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
@@ -154,7 +156,7 @@ void join_alternating_lines(std::vector<PoleCluster>& clusters, int n_orders) {
                    [](const auto& a, const auto& b) { return a.representative.mpc > b.representative.mpc; });
   const auto near_hz = [](const PoleCluster& a, const PoleCluster& b) {
     const double damping = std::min(std::abs(a.damping_ratio), std::abs(b.damping_ratio));
-    return std::min(kAlternating * damping, kStableFrequencyTolerance) * a.apparent_hz;
+    return std::min(kAlternating * damping, kAlternatingFrequency) * a.apparent_hz;
   };
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     PoleCluster& line = clusters[i];

@@ -38,8 +38,8 @@ struct PoleCluster {
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders);
 
 // One pole whose shape contains more or less of a neighbour's from order to order forms several clusters: none of them
-// shares an order with another, and their frequencies agree (a quarter of the half-power width). They become one line,
-// with frequency, damping and shape of that cluster whose components are most in phase (MPC).
+// shares an order with another, and their frequencies agree (a quarter of the half-power width, 0.3 % at most). They
+// become one line, with frequency, damping and shape of that cluster whose components are most in phase (MPC).
 void join_alternating_lines(std::vector<PoleCluster>& clusters, int n_orders);
 
 [[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;  // -Re s / |s|

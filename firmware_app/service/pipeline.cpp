@@ -125,6 +125,7 @@ Pipeline::Outcome Pipeline::join() {
   for (const rt::StageRunner* runner : flow_->runners)
     outcome.stages_ended_ns = std::max(outcome.stages_ended_ns, runner->steps_ended_ns());
   outcome.estimate = flow_->publish.last_estimate();
+  outcome.leaves_out = flow_->publish.left_out() != 0;
   outcome.health = flow_->status();
   outcome.fault = flow_->fault();
   if (outcome.fault.empty()) {

@@ -38,6 +38,7 @@ class Pipeline {
     std::vector<std::string> notes;    // e.g. a truncated clip
     std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC at the last stage's last step, before the report is written
     std::string page;                  // path of report.html; empty: no report was requested
+    bool leaves_out = false;  // the report is without an estimate, a diagnosis or a comparison that ended too late
     // A thread is still in an estimate that was not waited for: everything is written; end the process by std::_Exit.
     bool leaves_threads = false;
   };

@@ -143,7 +143,7 @@ bool Progress::finish(const Pipeline::Outcome& outcome) {
         "telemetry.log_file",
         h.messages_failed, h.messages_sent);
   }
-  if (outcome.leaves_threads)
+  if (outcome.leaves_out)
     spdlog::warn(
         "an estimate, or a report of residual diagnosis or of the declared structure, that did not end in time is left "
         "out");

@@ -185,8 +185,9 @@ TEST_P(ServiceSignal, EndsARunWellWithACompleteReport) {
 
 INSTANTIATE_TEST_SUITE_P(Interrupts, ServiceSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
-// Block rows near the lags that a segment has: one estimate takes many seconds. The report is that of the run without
-// it; the comparison of the declared structure, which waits for it, is not waited for.
+// Block rows near the lags that a segment has: one estimate takes some seconds. The signal comes soon after its
+// beginning. The report is that of the run without it; the comparison of the declared structure, which waits for it, is
+// not waited for.
 TEST_P(ServiceSignal, EndsARunInALongEstimateWithACompleteReport) {
   const auto folder = own_folder();
   const std::string structure = (folder / "frame.yaml").string();
@@ -197,8 +198,7 @@ TEST_P(ServiceSignal, EndsARunInALongEstimateWithACompleteReport) {
                                               "identification.period=1", "--report", folder.string()}))
     arguments.push_back(a);
   tests::ChildProcess service(arguments);
-  ASSERT_TRUE(service.wait_for("channel base")) << service.output();
-  std::this_thread::sleep_for(std::chrono::milliseconds(3000));
+  ASSERT_TRUE(service.wait_until_busy("hm-identify", 0.2)) << service.output();
   service.signal(GetParam());
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(service.wait_for_exit(), 0) << service.output();

@@ -8,7 +8,11 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "tests/support/patience.h"
@@ -59,10 +63,36 @@ class ChildProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
 
+  // Waits until the threads of that name have used so much processor time; false if the time ran out.
+  [[nodiscard]] bool wait_until_busy(const std::string& thread, double cpu_s, int patience_s = 30) {
+    bool is_busy = false;
+    (void)read_until([&] { return is_busy = cpu_of(thread) >= cpu_s; }, patience_s);
+    return is_busy;
+  }
+
   void signal(int number) const { ::kill(pid_, number); }
   [[nodiscard]] const std::string& output() const { return output_; }
 
  private:
+  [[nodiscard]] double cpu_of(const std::string& thread) const {
+    double ticks = 0.0;
+    std::error_code gone;
+    const std::filesystem::path tasks = "/proc/" + std::to_string(pid_) + "/task";
+    for (const auto& task : std::filesystem::directory_iterator(tasks, gone)) {
+      std::string stat;
+      std::getline(std::ifstream(task.path() / "stat"), stat);
+      const std::size_t begin = stat.find('('), end = stat.rfind(')');
+      if (end == stat.npos || stat.substr(begin + 1, end - begin - 1) != thread) continue;
+      std::istringstream fields(stat.substr(end + 1));
+      std::string field;
+      for (int i = 3; i < 14; ++i) fields >> field;  // proc(5): field 3 follows the name, 14 and 15 are the times
+      double user = 0.0, system = 0.0;
+      fields >> user >> system;
+      ticks += user + system;
+    }
+    return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+
   template <class Done>
   bool read_until(Done done, int patience_s) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(patience_s) * kSlowdown;

@@ -11,16 +11,16 @@ namespace {
 constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
 
 // A caveat of the report for each.
-std::vector<std::string> late_words(std::uint32_t late) {
+std::vector<std::string> late_words(std::uint32_t left_out) {
   std::vector<std::string> out;
-  if ((late & PublishStage::kEstimate) != 0)
+  if ((left_out & PublishStage::kEstimate) != 0)
     out.emplace_back(
         "the run was stopped during an estimate that did not end in time: the modes are those of the estimate before "
         "it; replay the run's record or tracks for the last one");
-  if ((late & PublishStage::kDiagnosis) != 0)
+  if ((left_out & PublishStage::kDiagnosis) != 0)
     out.emplace_back("the run was stopped during residual diagnosis, whose last report did not end in time");
   // Where the estimate is left, so is the comparison that waits for it.
-  if ((late & PublishStage::kComparison) != 0 && (late & PublishStage::kEstimate) == 0)
+  if ((left_out & PublishStage::kComparison) != 0 && (left_out & PublishStage::kEstimate) == 0)
     out.emplace_back("the run was stopped while the declared structure was compared; that report did not end in time");
   return out;
 }
@@ -57,10 +57,15 @@ rt::StepStatus PublishStage::step() noexcept {
     return rt::StepStatus::kWorked;
   }
   const std::uint32_t late = late_.load(std::memory_order_relaxed);
-  const bool is_over = ends_.records.finished() && (ends_.results.finished() || (late & kEstimate) != 0) &&
-                       (!ends_.closures || ends_.closures->finished() || (late & kDiagnosis) != 0) &&
-                       (!ends_.comparisons || ends_.comparisons->finished() || (late & kComparison) != 0);
+  const bool is_over = ends_.records.finished() && (missing(kEstimate | kDiagnosis | kComparison) & ~late) == 0;
   return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+}
+
+std::uint32_t PublishStage::missing(std::uint32_t late) noexcept {
+  if (ends_.results.finished()) late &= ~std::uint32_t{kEstimate};
+  if (!ends_.closures || ends_.closures->finished()) late &= ~std::uint32_t{kDiagnosis};
+  if (!ends_.comparisons || ends_.comparisons->finished()) late &= ~std::uint32_t{kComparison};
+  return late;
 }
 
 void PublishStage::publish_record(const FrameRecord& record) noexcept {
@@ -116,7 +121,7 @@ void PublishStage::complete_report(const core::Health& health) {
   if (outlets_.findings) {
     for (std::string& words : outlets_.findings()) caveats.push_back(std::move(words));
   }
-  for (std::string& words : late_words(late_.load(std::memory_order_relaxed))) caveats.push_back(std::move(words));
+  for (std::string& words : late_words(left_out_)) caveats.push_back(std::move(words));
   if (outlets_.report == nullptr) return;
   outlets_.report->finish(last_estimate_, health, outlets_.corrections, caveats, closure(),
                           [&](const std::string& folder) {
@@ -125,6 +130,7 @@ void PublishStage::complete_report(const core::Health& health) {
 }
 
 void PublishStage::finish() noexcept {
+  left_out_ = missing(late_.load(std::memory_order_relaxed));
   try {
     core::Health health = outlets_.health();
     if (outlets_.recorder != nullptr && health.times.known()) (void)outlets_.recorder->end(health.times);

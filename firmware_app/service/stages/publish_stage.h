@@ -61,7 +61,7 @@ class PublishStage : public rt::Stage {
 
   // What of a stopped run is not waited for any more, because it takes too long.
   enum Late : std::uint32_t { kEstimate = 1, kDiagnosis = 2, kComparison = 4 };
-  // Any thread. The report is then completed without it and says so.
+  // Any thread. The report is completed without it and says so, unless it arrives before everything else has ended.
   void go_on_without(Late late) noexcept {
     late_.fetch_or(late, std::memory_order_relaxed);  // independent of other data; partner: step(), finish()
     wakeup().nudge();
@@ -69,7 +69,8 @@ class PublishStage : public rt::Stage {
   // Any thread: estimates published so far. Stored with release after `last_estimate_` is complete; see
   // last_estimate().
   [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_.load(std::memory_order_acquire); }
-  // Call after the thread has ended.
+  // Call after the thread has ended. `left_out`: set of Late, what the report is without.
+  [[nodiscard]] std::uint32_t left_out() const noexcept { return left_out_; }
   [[nodiscard]] const core::ModalEstimate& last_estimate() const noexcept { return last_estimate_; }
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }  // empty = none
 
@@ -78,6 +79,8 @@ class PublishStage : public rt::Stage {
   void publish_result(const IdentificationResult& result) noexcept;
   void publish_closure(const core::closure::ClosureReport& report) noexcept;
   void publish_health_when_due() noexcept;
+  // The items of `late` that have still not arrived.
+  [[nodiscard]] std::uint32_t missing(std::uint32_t late) noexcept;
   void complete_report(const core::Health& health);
   [[nodiscard]] const core::closure::ClosureReport* closure() const noexcept {
     return last_closure_ ? &*last_closure_ : nullptr;
@@ -93,6 +96,7 @@ class PublishStage : public rt::Stage {
   std::int64_t next_health_ns_ = 0;
   std::atomic<std::uint64_t> n_estimates_{0};
   std::atomic<std::uint32_t> late_{0};
+  std::uint32_t left_out_ = 0;
 };
 
 }  // namespace app

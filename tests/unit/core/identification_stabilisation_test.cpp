@@ -129,6 +129,7 @@ TEST(Stabilisation, JoinsALineWhoseShapeAlternates) {
     poles.push_back(pole(i, 4.2, 0.01, i % 3 == 0 ? kSecond : kFirst));
     poles.push_back(pole(i, 4.21, 0.01, i % 3 == 0 ? kFirst : kSecond));
     poles.push_back(pole(i, i % 3 == 0 ? 6.0 : 6.05, 0.01, i % 3 == 0 ? kSecond : kFirst));
+    poles.push_back(pole(i, i % 3 == 0 ? 8.0 : 8.05, 0.06, i % 3 == 0 ? kSecond : kFirst));
   }
   std::vector<PoleCluster> clusters = cluster_poles(poles, 10);
   const std::size_t n_before = clusters.size();
@@ -144,6 +145,7 @@ TEST(Stabilisation, JoinsALineWhoseShapeAlternates) {
   EXPECT_EQ(at(4.0)[0].members.size(), 10U);
   EXPECT_NEAR(at(4.0)[0].representative.mpc, 0.95, 1e-12) << "the shape that is more in phase";
   EXPECT_EQ(at(6.0).size(), 2U) << "another frequency is another pole";
+  EXPECT_EQ(at(8.0).size(), 2U) << "and so it is within a wide pole's width";
   EXPECT_EQ(clusters.size(), n_before - 1) << "poles of the same orders are two";
 }
 
