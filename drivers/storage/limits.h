@@ -32,7 +32,7 @@ struct Limits {
   static constexpr std::size_t kColumns = 4096;                  // of a table
   static constexpr std::size_t kFlights = 2000;                  // whose modes are compared over time
   static constexpr std::size_t kSeriesCells = 30'000'000;        // of all columns: 20 hours of 8 channels at 50 Hz
-  static constexpr std::size_t kExchangeBytes = 96 * kMiB;       // of a universal or MAT file, and of the series in it
+  static constexpr std::size_t kExchangeBytes = 512 * kMiB;      // of a universal or MAT file, and of the series in it
   static constexpr std::size_t kCommentBytes = kMiB;             // above a table
   static constexpr std::size_t kPointsPerRegion = 4096;          // of one frame in tracks
   static constexpr std::size_t kRegions = 4096;                  // in tracks

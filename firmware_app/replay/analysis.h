@@ -35,7 +35,8 @@ struct PageHead {
 struct SeriesOptions {
   SpectrumConfig spectrum{.segment = 0};  // segment 0 = chosen from the record's length, at the decimated rate
   core::IdentifierConfig identifier;      // references are indices into ChannelSeries::channels
-  // Slower rate: the record is decimated as far as identifier.max_frequency_hz stays in the filter's passband.
+  // Slower rate: the record is decimated as far as identifier.max_frequency_hz stays in the filter's passband; 0: where
+  // the motion needs a quarter of the rate or less (oversampling.h).
   bool decimate = true;
   bool mask_faults = true;                          // series_faults.h; false: every number counts
   std::string report_directory;                     // must exist; empty = no report

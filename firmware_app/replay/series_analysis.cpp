@@ -192,7 +192,11 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   std::vector<std::uint64_t> n_outlying;
   if (options.mask_faults) n_outlying = mask_faults(series, result.remarks);
   leave_out_unusable(series, identifier.references, result.remarks);
-  if (options.decimate) result.decimation = decimate_to(series, identifier.max_frequency_hz, result.remarks);
+  if (options.decimate) {
+    result.decimation = identifier.max_frequency_hz > 0.0
+                            ? decimate_to(series, identifier.max_frequency_hz, result.remarks)
+                            : decimate_to_motion(series, result.remarks);
+  }
   if (result.decimation > 1) identifier.edge_hz = core::Decimator::kPassband * series.rate_hz;
   identifier.least_power = 0.0;  // channels without motion are already excluded, whatever the unit
 

@@ -164,7 +164,7 @@ void add_method_options(drivers::Command& command, IdentifyOptions& options) {
   command
       .option("--max-frequency", options.identifier.max_frequency_hz,
               "Highest true frequency, Hz: if far below half the rate the record is decimated; if above "
-              "it, alias orders are determined from row delays (0 = half the rate)")
+              "it, alias orders are determined from row delays (0 = half the rate, or as far as anything moves)")
       .not_negative()
       .show_default();
   command.option("--segment", options.segment, "Samples of a Welch segment, after decimation; 0 = automatic")
