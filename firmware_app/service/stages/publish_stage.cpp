@@ -13,10 +13,11 @@ constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
 // A caveat of the report for each.
 std::vector<std::string> late_words(std::uint32_t left_out) {
   std::vector<std::string> out;
-  if ((left_out & PublishStage::kEstimate) != 0)
+  if ((left_out & PublishStage::kEstimate) != 0) {
     out.emplace_back(
         "the run was stopped during an estimate that did not end in time: the modes are those of the estimate before "
         "it; replay the run's record or tracks for the last one");
+  }
   if ((left_out & PublishStage::kDiagnosis) != 0)
     out.emplace_back("the run was stopped during residual diagnosis, whose last report did not end in time");
   // Where the estimate is left, so is the comparison that waits for it.

@@ -202,7 +202,7 @@ TEST(IdentifySeries, OneChannelIsAnsweredWithAWarning) {
 }
 
 TEST(IdentifySeries, RefusesWithTheReason) {
-  const auto refusal = [](ChannelSeries series, const SeriesOptions& options) -> std::string {
+  const auto refusal = [](const ChannelSeries& series, const SeriesOptions& options) -> std::string {
     try {
       static_cast<void>(identify_series(series, options));
     } catch (const std::invalid_argument& error) {
