@@ -56,7 +56,7 @@ figure_6() {
     runs=$((runs + 1))
     awk '/"frames_in"|"frames_processed"|"frames_dropped"/ { key = $1; gsub(/[^0-9]/, "", $2); v[key] = $2 } END { exit v["\"frames_in\":"] != v["\"frames_processed\":"] + v["\"frames_dropped\":"] || v["\"frames_in\":"] == 0 }' "$report" || wrong=$((wrong + 1))
   done < <(find "$out" -name modal.json -newer "$bin/hovermodald" | grep -v true_motion)
-  quietly tools/build.sh integration_tests
+  quietly tools/build.sh integration_tests fault_calls clock_steps
   if log=$(ctest --test-dir build/release -L integration 2>&1); then tests=pass; else tests=fail; fi
   ran=$(echo "$log" | awk '/tests passed/ { print $NF }')
   judge 6 "$((runs - wrong)) of $runs runs here; integration tests (which assert it): $tests, $ran" \
