@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kShare = 0.99;       // of the velocity's power
 constexpr double kLeastPower = 1e-5;  // of the strongest acceleration's
-constexpr double kMargin = 1.25;      // of the limit that is proposed
+constexpr double kMargin = 1.25;      // of the limit that is proposed or used
 constexpr int kLeastFactor = 4;
 constexpr double kNoiseScatter = 2.0;  // of the mean of ...
 constexpr int kBinsTogether = 16;      // ... so many bins, in a spectrum of few segments
@@ -114,8 +114,8 @@ double velocity_up_to_hz(const core::CpsdSums& sums, const std::vector<core::Cha
   return last * sums.rate_hz / sums.n_fft;
 }
 
-}  // namespace
-
+// Above, no channel moves: its power is no more than white noise, or 50 dB below the channel's strongest, as
+// acceleration. Half the rate where the motion takes more than a quarter of the spectrum. 0 = nothing moves.
 double moves_up_to_hz(const ChannelSeries& series) {
   double out = 0.0;
   for (std::size_t c = 0; c < series.channels.size(); ++c) {
@@ -123,6 +123,8 @@ double moves_up_to_hz(const ChannelSeries& series) {
   }
   return out;
 }
+
+}  // namespace
 
 int decimate_to_motion(ChannelSeries& series, std::vector<std::string>& remarks) {
   const double moves_hz = moves_up_to_hz(series), limit_hz = kMargin * moves_hz;

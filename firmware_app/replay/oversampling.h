@@ -12,12 +12,8 @@ namespace app {
 // The window of the identification is fixed in samples. At a rate far above that of the motion it is short for the
 // modes.
 
-// Frequency above which no channel moves: its power is no more than white noise, or 50 dB below the channel's
-// strongest, as acceleration. Half the rate where the motion takes more than a quarter of the spectrum. 0 = nothing
-// moves.
-[[nodiscard]] double moves_up_to_hz(const ChannelSeries& series);
-
-// Decimates a record at four times the rate that its motion needs, or more, so that all motion stays in the passband.
+// Decimates a record at four times the rate that its motion needs, or more, so that all motion stays in the passband:
+// what lies above white noise, and within 50 dB of its channel's strongest acceleration.
 // Returns the factor; describes the change in `remarks`.
 int decimate_to_motion(ChannelSeries& series, std::vector<std::string>& remarks);
 

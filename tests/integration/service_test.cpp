@@ -198,6 +198,7 @@ TEST_P(ServiceSignal, EndsARunInALongEstimateWithACompleteReport) {
                                               "identification.period=1", "--report", folder.string()}))
     arguments.push_back(a);
   tests::ChildProcess service(arguments);
+  ASSERT_TRUE(service.wait_for("channel base")) << service.output();
   ASSERT_TRUE(service.wait_until_busy("hm-identify", 0.2)) << service.output();
   service.signal(GetParam());
   const auto begin = std::chrono::steady_clock::now();

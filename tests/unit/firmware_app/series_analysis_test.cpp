@@ -63,6 +63,14 @@ void expect_both_modes(const SeriesResult& result) {
   EXPECT_NEAR(result.estimate.modes[1].frequency_hz, 4.0, 0.03);
 }
 
+TEST(IdentifySeries, ARateFarAboveThatOfTheMotionIsRemarkedOn) {
+  const auto remarks = identify_series(two_modes(400.0, 60.0), up_to(0.0)).remarks;
+  EXPECT_THAT(remarks, Contains(AllOf(HasSubstr("far below half the rate of 400 Hz"), HasSubstr("--max-frequency"))));
+  EXPECT_THAT(identify_series(two_modes(400.0, 60.0), up_to(8.0)).remarks, Not(Contains(HasSubstr("far below"))))
+      << "where the limit is declared";
+  EXPECT_THAT(identify_series(two_modes(20.0, 300.0), up_to(0.0)).remarks, Not(Contains(HasSubstr("far below"))));
+}
+
 // `factor` times the samples, without anything above the old half rate: interpolated by a windowed sinc.
 ChannelSeries finer(const ChannelSeries& series, int factor) {
   constexpr int kReach = 16;
