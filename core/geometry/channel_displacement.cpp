@@ -8,6 +8,7 @@
 #include "core/geometry/keyframe_view.h"
 #include "core/geometry/resting_region.h"
 #include "core/tracking/outlier_rejection.h"
+#include "core/types/witness.h"
 
 namespace core {
 
@@ -15,6 +16,9 @@ namespace {
 
 // Lower bound of a point's sigma, set by rounding and optics; it bounds the weights.
 constexpr double kLeastSigmaPx = 0.003;
+
+// Spread of a static region's points in heights of the image from which on it witnesses the camera's rotation.
+constexpr double kLeastSpread = 0.1;
 
 // Consecutive frames that contradict the estimated camera motion, after which it is given up.
 constexpr int kMostContradictedFrames = 50;
@@ -100,7 +104,8 @@ std::vector<RegionPoints> ChannelDisplacement::region_points() const {
       weight += weight_[i];
     }
     const bool is_late = weight > 0.0 && !config_.paper_method;
-    out.push_back({range.size(), is_late ? config_.readout.readout_s * share / weight : 0.0});
+    out.push_back({range.size(), is_late ? config_.readout.readout_s * share / weight : 0.0,
+                   spread_px({keyframe_.data() + range.begin, range.size()})});
   }
   return out;
 }
@@ -110,7 +115,8 @@ void ChannelDisplacement::make_channels() {
   channels_ = channel_layout(config_.regions, points);
   spectra_ = channels_;
   if (!config_.witness || !config_.scale_only || config_.paper_method) return;
-  for (ChannelInfo& witness : witness_layout(config_.regions, points, channels_, config_.min_points))
+  const WitnessNeeds needs{config_.min_points, kLeastSpread * config_.readout.height_px};
+  for (ChannelInfo& witness : witness_layout(config_.regions, points, channels_, needs))
     spectra_.push_back(std::move(witness));
 }
 
@@ -254,12 +260,20 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
 }
 
 // A static region at another distance has another zoom; its points share one motion only after removal of that zoom.
-void ChannelDisplacement::follow_what_rests() noexcept {
+void ChannelDisplacement::follow_what_rests(DisplacementSample& out) noexcept {
   if (n_witnesses() == 0) return;
   const RegionRange& range = ranges_[spectra_.back().region];
   const std::size_t begin = range.begin, n = range.size();
-  follow_resting_region({{position_.data() + begin, n}, {keyframe_.data() + begin, n}, {seen_.data() + begin, n}},
-                        config_.inlier_sigma_px, {motion_.data() + begin, n}, {inlier_.data() + begin, n});
+  const double turn_rad =
+      follow_resting_region({{position_.data() + begin, n}, {keyframe_.data() + begin, n}, {seen_.data() + begin, n}},
+                            config_.inlier_sigma_px, {motion_.data() + begin, n}, {inlier_.data() + begin, n});
+  for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
+    const ChannelInfo& witness = spectra_[channels_.size() + w];
+    const Average mean = average(witness);
+    const double moved_px = witnesses_turn(witness) ? 0.5 * config_.readout.height_px * turn_rad : mean.mean_px;
+    out.witness_mm[w] = mean.enough ? config_.scale_mm_per_px * moved_px : 0.0;
+    out.witness_seen[w] = mean.enough ? 1 : 0;
+  }
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {
@@ -268,17 +282,12 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   out.gap_before = tracks.gap_before;
   place_points(tracks);
   const double magnification = follows_camera() ? follow_camera(tracks.t_start_ns) : estimate_scale();
-  follow_what_rests();
+  follow_what_rests(out);
   for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
     tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) shutter_.correct(tracks.sequence, readout_share_, inlier_, motion_);
   out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
   for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, out);
-  for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
-    const Average mean = average(spectra_[channels_.size() + w]);
-    out.witness_mm[w] = mean.enough ? config_.scale_mm_per_px * mean.mean_px : 0.0;
-    out.witness_seen[w] = mean.enough ? 1 : 0;
-  }
 }
 
 }  // namespace core

@@ -45,7 +45,8 @@ struct ChannelDisplacementConfig {
 // motion. `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
 // (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. Static regions (background, ground) are not channels. If only
 // the scale is estimated, the static region with the most points, without its own zoom, is a witness of the camera's
-// translation along each direction of the channels.
+// translation along each direction of the channels and, if its points spread far enough, of its rotation about the
+// optical axis.
 // Unobservable camera motion (sideways translation if only the structure is seen) remains in all channels alike;
 // sigma_mm does not contain it.
 // One thread; does not allocate after construction.
@@ -89,7 +90,7 @@ class ChannelDisplacement {
 
   [[nodiscard]] std::vector<RegionPoints> region_points() const;
   void make_channels();
-  void follow_what_rests() noexcept;
+  void follow_what_rests(DisplacementSample& out) noexcept;
   void place_points(const TrackFrame& tracks) noexcept;
   [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
   [[nodiscard]] double estimate_scale() noexcept;

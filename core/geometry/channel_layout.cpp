@@ -6,8 +6,17 @@
 #include <utility>
 
 #include "core/geometry/keyframe_view.h"
+#include "core/types/witness.h"
 
 namespace core {
+
+double spread_px(std::span<const Vector2> points) noexcept {
+  const auto n = static_cast<double>(points.size());
+  double u = 0.0, v = 0.0, squares = 0.0;
+  for (const Vector2& p : points) u += p.u / n, v += p.v / n;
+  for (const Vector2& p : points) squares += (p.u - u) * (p.u - u) + (p.v - v) * (p.v - v);
+  return points.empty() ? 0.0 : std::sqrt(squares / n);
+}
 
 std::string_view without_axis(std::string_view channel) noexcept {
   if (channel.ends_with(".u") || channel.ends_with(".v")) channel.remove_suffix(2);
@@ -39,18 +48,17 @@ std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions, cons
 }
 
 std::vector<ChannelInfo> witness_layout(const std::vector<Region>& regions, const std::vector<RegionPoints>& points,
-                                        const std::vector<ChannelInfo>& channels, int min_points) {
+                                        const std::vector<ChannelInfo>& channels, const WitnessNeeds& needs) {
   constexpr double kSameDirection = 0.99;
   std::vector<ChannelInfo> out;
-  std::size_t best = regions.size(), most = static_cast<std::size_t>(std::max(3, min_points)) - 1;
+  std::size_t best = regions.size(), most = static_cast<std::size_t>(std::max(3, needs.min_points)) - 1;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (!makes_channel(regions[r].role) && points[r].n > most) best = r, most = points[r].n;
   }
   if (best == regions.size()) return out;
   for (const ChannelInfo& channel : channels) {
     const auto is_alike = [&](const ChannelInfo& other) {
-      return std::abs(other.direction_u * channel.direction_u + other.direction_v * channel.direction_v) >
-             kSameDirection;
+      return std::abs(cosine_between(other, channel)) > kSameDirection;
     };
     if (std::any_of(out.begin(), out.end(), is_alike)) continue;
     ChannelInfo info{static_cast<std::uint16_t>(best), regions[best].name, channel.direction_u, channel.direction_v,
@@ -58,6 +66,10 @@ std::vector<ChannelInfo> witness_layout(const std::vector<Region>& regions, cons
     info.is_witness = true;
     out.push_back(std::move(info));
   }
+  if (!(needs.least_spread_px > 0.0) || points[best].spread_px < needs.least_spread_px) return out;
+  ChannelInfo turn{static_cast<std::uint16_t>(best), regions[best].name, 0.0, 0.0, points[best].delay_s};
+  turn.is_witness = true;
+  out.push_back(std::move(turn));
   return out;
 }
 

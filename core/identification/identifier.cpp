@@ -51,12 +51,14 @@ struct Fitted {
   const RecordPoles& poles;
 };
 
-VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit, const CpsdSums& sums) {
+VerdictRules verdict_rules(const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
+                           const ModelFit& fit, const CpsdSums& sums) {
   VerdictRules rules;
   rules.max_damping = config.max_damping;
   rules.max_apparent_hz = config.edge_hz;
   rules.last_first_i_order = fit.last_first_i_order;
-  rules.base_is_input = !fit.era.inputs.empty();
+  rules.base_is_input = std::any_of(fit.era.inputs.begin(), fit.era.inputs.end(),
+                                    [&](int input) { return channels[static_cast<std::size_t>(input)].is_base; });
   // After a decimation filter, the edge of the filter is the limit.
   if (!(config.edge_hz > 0.0)) rules.max_frequency_hz = config.max_frequency_hz;
   rules.record_s = sums.n_remembered() / sums.rate_hz;
@@ -170,9 +172,12 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   if (subtracts) lines = find_steady_lines(sums, channels_, measured_inputs(sums, channels_));
   if (lines.empty()) {
     identify_modes(sums, records, field, estimate);
+    if (subtracts) identify_shared(sums, records, estimate);
     return estimate;
   }
-  identify_modes(without_lines(sums, lines), records, field, estimate);
+  const CpsdSums steadied = without_lines(sums, lines);
+  identify_modes(steadied, records, field, estimate);
+  identify_shared(steadied, records, estimate);
   for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding_config(sums.rate_hz)))
     estimate.rejected.push_back(std::move(line));
   return estimate;
@@ -193,7 +198,7 @@ void Identifier::identify_modes(const CpsdSums& sums, const std::vector<ChannelR
   }
   const std::vector<PoleCluster>& lines = poles.lines;
   const JudgedChannels channels{channels_, outputs_};
-  const VerdictRules rules = verdict_rules(config_, poles.fit, sums);
+  const VerdictRules rules = verdict_rules(config_, channels_, poles.fit, sums);
   std::vector<Mode> modes = config_.as_published
                                 ? judge_published_lines(lines, channels, rules)
                                 : judge_lines({sums, records, folding, camera, poles}, channels, rules);

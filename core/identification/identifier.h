@@ -59,6 +59,8 @@ class Identifier {
                                            FieldShapes* field) const;
   void identify_modes(const CpsdSums& sums, const std::vector<ChannelRecord>& records, FieldShapes* field,
                       ModalEstimate& estimate) const;
+  // Replaces the modes that the camera shares (SharedMotion) by those of the motion relative to the base.
+  void identify_shared(const CpsdSums& sums, const std::vector<ChannelRecord>& records, ModalEstimate& estimate) const;
   [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part, FieldShapes* field) const;
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums, FieldShapes* field) const;
   [[nodiscard]] Identifier with_channels(const std::vector<std::size_t>& kept) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <complex>
 
+#include "core/types/witness.h"
+
 namespace core {
 
 namespace {
@@ -81,9 +83,19 @@ std::vector<int> measured_inputs(const CpsdSums& sums, const std::vector<Channel
     (channels[i].is_base ? inputs : channels[i].is_witness ? witnesses : outputs).push_back(static_cast<int>(i));
   }
   const auto is_transient = [&](int base) { return filled_share(spectra, base) < kLeastSteady; };
-  if (inputs.empty() || outputs.empty() || std::any_of(inputs.begin(), inputs.end(), is_transient)) return {};
+  if (outputs.empty() || std::any_of(inputs.begin(), inputs.end(), is_transient)) return {};
+  if (sums.n_segments < kLeastSegments) return inputs;
+  const bool has_base = !inputs.empty();
+  bool all_rest = true;
   for (const int w : witnesses) {
-    if (sums.n_segments >= kLeastSegments && explained_share(spectra, outputs, w) < kMostExplained) inputs.push_back(w);
+    if (witnesses_turn(channels[static_cast<std::size_t>(w)])) continue;
+    const bool rests = explained_share(spectra, outputs, w) < kMostExplained;
+    if (rests && has_base) inputs.push_back(w);
+    all_rest = all_rest && rests;
+  }
+  // The camera's rotation may well be most of the channels' motion against one another.
+  for (const int w : witnesses) {
+    if (all_rest && witnesses_turn(channels[static_cast<std::size_t>(w)])) inputs.push_back(w);
   }
   std::sort(inputs.begin(), inputs.end());
   return inputs;

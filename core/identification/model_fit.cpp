@@ -7,6 +7,7 @@
 #include "core/identification/measured_inputs.h"
 #include "core/identification/prewhitening.h"
 #include "core/identification/uncertainty.h"
+#include "core/types/witness.h"
 
 namespace core {
 
@@ -57,6 +58,11 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
   return spread;
 }
 
+// Channels that share the rows: the rotation of the camera has no dynamics to be resolved.
+std::size_t n_resolved(const std::vector<ChannelInfo>& channels) {
+  return channels.size() - static_cast<std::size_t>(std::count_if(channels.begin(), channels.end(), witnesses_turn));
+}
+
 int block_rows_of(const CpsdSums& sums, int most_rows, std::size_t n_channels) {
   const double rows = std::min<double>(most_rows, sums.n_remembered() / kSamplesPerRow);
   // The weights contain the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
@@ -72,7 +78,7 @@ int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std:
 EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
                      int n_differences) {
   EraConfig era;
-  era.block_rows = choose_block_rows(sums, config, channels.size());
+  era.block_rows = choose_block_rows(sums, config, n_resolved(channels));
   era.first_lag = 1 + n_differences;
   era.references = choose_references(config, channels);
   if (!config.as_published) era.inputs = measured_inputs(sums, channels);
@@ -160,7 +166,8 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
 }
 
 int longer_block_rows(const CpsdSums& sums, const IdentifierConfig& config, const ModelFit& fit,
-                      std::size_t n_channels) {
+                      const std::vector<ChannelInfo>& channels) {
+  const std::size_t n_channels = n_resolved(channels);
   if (config.block_rows > 0 || n_channels > kMostChannelsOfClose) return 0;
   const int longer = block_rows_of(sums, kMostRowsOfClose, n_channels);
   return longer > fit.era.block_rows ? longer : 0;

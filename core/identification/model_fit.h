@@ -30,6 +30,6 @@ struct ModelFit {
 // More block rows than this fit has, for lines closer than their widths; 0 where the configuration fixes them, or where
 // the record or the time of an update has no room for more.
 [[nodiscard]] int longer_block_rows(const CpsdSums& sums, const IdentifierConfig& config, const ModelFit& fit,
-                                    std::size_t n_channels);
+                                    const std::vector<ChannelInfo>& channels);
 
 }  // namespace core

@@ -84,7 +84,7 @@ RecordPoles find_poles(const CpsdSums& sums, const IdentifierConfig& config, con
                        const FoldingConfig& folding, const CameraLeakage& camera) {
   RecordPoles out = poles_of(sums, config, channels, folding, camera);
   if (config.as_published || out.status != "ok" || !out.fit.order_is_clear) return out;
-  const int longer = longer_block_rows(sums, config, out.fit, channels.size());
+  const int longer = longer_block_rows(sums, config, out.fit, channels);
   if (longer == 0 || !has_close_lines(out.lines)) return out;
   IdentifierConfig with_longer = config;
   with_longer.block_rows = longer;

@@ -54,10 +54,11 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
       number_key("spectrum.forget_s", "s", at(&A::spectrum, &S::forget_s), {1, 1e7, true},
                  "time constant of forgetting: a segment is weighted by exp(-age / forget_s), for a structure "
                  "that changes; 0 = all segments count alike"));
-  keys.push_back(
-      switch_key("spectrum.witness", at(&A::spectrum, &S::witness),
-                 "with scale.only: treat motion coherent with a static region (background, ground) as camera "
-                 "motion and remove it from the mode shapes"));
+  keys.push_back(switch_key(
+      "spectrum.witness", at(&A::spectrum, &S::witness),
+      "with scale.only: treat motion coherent with a static region (background, ground) as camera "
+      "motion and remove it from the mode shapes; beside a base, and for the camera's roll, it is a measured "
+      "input of the identification"));
   using I = IdentificationConfig;
   keys.push_back(whole_key("identification.period", "hops", at(&A::identification, &I::period_hops), {1, 1000000},
                            "number of hops between two estimates (one hop = segment * (1 - overlap) samples). A run "

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/types/witness.h"
 #include "tests/support/plate_tracks.h"
 
 namespace core {
@@ -63,16 +64,18 @@ TEST(ChannelDisplacement, FollowsWhatRestsAsAWitnessOfTheCamerasShift) {
   for (std::size_t i = 32; i < 48; ++i) centre_px += (keyframe.points[i].u_px - view.camera.cx) / 16.0;
   Measured measure(config, keyframe);
   ASSERT_EQ(measure.channels.channels().size(), 2U);
-  ASSERT_EQ(measure.channels.spectra().size(), 3U);
+  ASSERT_EQ(measure.channels.spectra().size(), 4U);
   EXPECT_TRUE(measure.channels.spectra()[2].is_witness);
+  EXPECT_TRUE(witnesses_turn(measure.channels.spectra()[3]));
   for (int k = 1; k < 50; ++k) {
     const double t = k / view.rate_hz;
     TrackFrame tracks = view.frame(t, sway, drift);
     tracks.points[40].seen = k % 2 == 0;             // seen in every second frame: the mean of the others must not jump
     if (k % 3 == 0) tracks.points[45].u_px += 20.0;  // jumps
     const DisplacementSample& sample = measure(tracks);
-    ASSERT_EQ(sample.witness_mm.size(), 1U);
+    ASSERT_EQ(sample.witness_mm.size(), 2U);
     EXPECT_EQ(sample.witness_seen[0], 1);
+    EXPECT_NEAR(sample.witness_mm[1], 0.0, 0.02) << "nothing turns";
     EXPECT_NEAR(sample.witness_mm[0], sway(2, t) / drift(t) + 2.0 * centre_px * (1.0 / drift(t) - 1.0), 0.02) << t;
   }
   config.witness = false;

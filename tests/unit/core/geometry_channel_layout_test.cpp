@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/types/witness.h"
+
 namespace core {
 namespace {
 
@@ -28,14 +30,26 @@ TEST(ChannelLayout, OneChannelAlongAnAxisTwoOfBothNoneOfWhatIsStatic) {
 
 TEST(ChannelLayout, TheStaticRegionOfMostPointsIsWitnessOfEachDirectionOnce) {
   const std::vector<ChannelInfo> channels = channel_layout(kRegions, kPoints);
-  const std::vector<ChannelInfo> witnesses = witness_layout(kRegions, kPoints, channels, 3);
+  const std::vector<ChannelInfo> witnesses = witness_layout(kRegions, kPoints, channels, {});
   ASSERT_EQ(witnesses.size(), 2U);  // base and roof.u share a direction
   for (const ChannelInfo& witness : witnesses) {
     EXPECT_EQ(witness.name, "wall");
     EXPECT_TRUE(witness.is_witness);
     EXPECT_EQ(witness.row_delay_s, 0.004);
   }
-  EXPECT_TRUE(witness_layout(kRegions, kPoints, channels, 10).empty());
+  EXPECT_TRUE(witness_layout(kRegions, kPoints, channels, {10, 0.0}).empty());
+}
+
+TEST(ChannelLayout, TheStaticRegionIsWitnessOfTheCamerasRotationWhereItsPointsSpread) {
+  const std::vector<ChannelInfo> channels = channel_layout(kRegions, kPoints);
+  std::vector<RegionPoints> points = kPoints;
+  points[3].spread_px = 50.0;
+  const std::vector<ChannelInfo> witnesses = witness_layout(kRegions, points, channels, {3, 50.0});
+  ASSERT_EQ(witnesses.size(), 3U);
+  EXPECT_FALSE(witnesses_turn(witnesses[1]));
+  EXPECT_TRUE(witnesses_turn(witnesses[2]));
+  EXPECT_EQ(witnesses[2].row_delay_s, 0.004);
+  EXPECT_EQ(witness_layout(kRegions, points, channels, {3, 51.0}).size(), 2U);
 }
 
 }  // namespace

@@ -153,6 +153,17 @@ TEST(MeasuredInputs, ABaseThatMovesForAPartOfTheRecordIsNone) {
   EXPECT_TRUE(measured_inputs(spectra_of(0.3, 0.0), base_floors_and_rest()).empty());
 }
 
+// The last channel is the rotation of a region at rest.
+TEST(MeasuredInputs, TheCamerasRotationIsOneAlsoWithoutABaseUnlessTheRegionMovesWithTheStructure) {
+  std::vector<ChannelInfo> channels = base_floors_and_rest();
+  channels[3].direction_u = 0.0;
+  EXPECT_EQ(measured_inputs(spectra_of(1.0, 3.0), channels), (std::vector{0, 3})) << "it may bend the view";
+  channels[0].is_base = false;
+  EXPECT_EQ(measured_inputs(spectra_of(1.0, 3.0), channels), (std::vector{3}));
+  channels[1].is_witness = true;  // explains all that channel 2 does against channel 0
+  EXPECT_TRUE(measured_inputs(spectra_of(1.0, 3.0), channels).empty());
+}
+
 TEST(MeasuredInputs, WithoutABaseThereAreNone) {
   std::vector<ChannelInfo> channels = base_floors_and_rest();
   channels[0].is_base = false;

@@ -1,0 +1,103 @@
+// Modes that a gust excites which moves the camera, too.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/identification/identifier.h"
+#include "core/identification/measured_inputs.h"
+#include "core/identification/relative_motion.h"
+#include "core/identification/verdict_words.h"
+#include "core/spectrum/select_channels.h"
+#include "core/types/witness.h"
+
+namespace core {
+
+namespace {
+
+// Modes of an estimate with the index that the poles of its diagram name; -1: not of that diagram.
+struct Listed {
+  Mode mode;
+  int i_line = -1;
+};
+
+std::vector<Listed> listed(std::vector<Mode>& modes, int first) {
+  std::vector<Listed> out;
+  for (Mode& mode : modes) out.push_back({std::move(mode), first++});
+  return out;
+}
+
+// Writes both lists, each by frequency, and the indices of the diagram's poles anew.
+void list_anew(std::vector<Listed> structural, std::vector<Listed> rejected, ModalEstimate& estimate) {
+  const auto n_before = estimate.modes.size() + estimate.rejected.size();
+  estimate.modes.clear(), estimate.rejected.clear();
+  std::vector<int> now(n_before, -1);
+  int n = 0;
+  for (auto* list : {&structural, &rejected}) {
+    std::stable_sort(list->begin(), list->end(),
+                     [](const Listed& a, const Listed& b) { return a.mode.frequency_hz < b.mode.frequency_hz; });
+    for (Listed& one : *list) {
+      if (one.i_line >= 0) now[static_cast<std::size_t>(one.i_line)] = n;
+      ++n;
+      (list == &structural ? estimate.modes : estimate.rejected).push_back(std::move(one.mode));
+    }
+  }
+  for (StabilisationPole& pole : estimate.poles) {
+    if (pole.i_line >= 0) pole.i_line = now[static_cast<std::size_t>(pole.i_line)];
+  }
+}
+
+template <class T>
+void insert_zero(std::vector<T>& values, int at) {
+  if (!values.empty()) values.insert(values.begin() + at, T{});
+}
+
+// Channels of the motion relative to the base: without the base, and without witnesses of what the base cancels.
+std::vector<std::size_t> relative_channels(const std::vector<ChannelInfo>& channels) {
+  std::vector<std::size_t> out;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (!channels[c].is_base && (!channels[c].is_witness || witnesses_turn(channels[c]))) out.push_back(c);
+  }
+  return out;
+}
+
+}  // namespace
+
+void Identifier::identify_shared(const CpsdSums& sums, const std::vector<ChannelRecord>& records,
+                                 ModalEstimate& estimate) const {
+  const auto is_base = [](const ChannelInfo& channel) { return channel.is_base; };
+  const auto is_displacement = [](const ChannelInfo& channel) { return channel.n_integrations == 0; };
+  if (estimate.poles.empty() || std::count_if(channels_.begin(), channels_.end(), is_base) != 1) return;
+  if (!std::all_of(channels_.begin(), channels_.end(), is_displacement)) return;
+  const auto base = static_cast<int>(std::find_if(channels_.begin(), channels_.end(), is_base) - channels_.begin());
+  if (measured_inputs(sums, channels_).empty()) return;
+  const CpsdSums relative = relative_to_base(sums, delays_as_undone(), base);
+  const SharedMotion shared(sums, relative, channels_, base);
+  if (!shared.anywhere()) return;
+
+  const std::vector<std::size_t> kept = relative_channels(channels_);
+  std::vector<ChannelRecord> kept_records;
+  for (const std::size_t c : kept) kept_records.push_back(records[c]);
+  ModalEstimate of_relative;
+  with_channels(kept).identify_modes(select_channels(relative, kept), kept_records, nullptr, of_relative);
+  if (of_relative.poles.empty()) return;
+
+  std::vector<Listed> structural, rejected = listed(estimate.rejected, static_cast<int>(estimate.modes.size()));
+  for (Listed& one : listed(estimate.modes, 0)) {
+    if (!shared.at(one.mode.apparent_hz)) {
+      structural.push_back(std::move(one));
+      continue;
+    }
+    set(one.mode, Verdict::kInputPeak,
+        "moves with the camera: the modes here are those of the motion relative to the base");
+    rejected.push_back(std::move(one));
+  }
+  for (Mode& mode : of_relative.modes) {
+    if (!shared.at(mode.apparent_hz)) continue;
+    insert_zero(mode.shape, base), insert_zero(mode.shape_std, base);
+    mode.reason += "; relative to the base, because the camera moves with it";
+    structural.push_back({std::move(mode), -1});
+  }
+  list_anew(std::move(structural), std::move(rejected), estimate);
+}
+
+}  // namespace core
