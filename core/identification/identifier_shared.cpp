@@ -65,9 +65,11 @@ std::vector<std::size_t> relative_channels(const std::vector<ChannelInfo>& chann
 void Identifier::identify_shared(const CpsdSums& sums, const std::vector<ChannelRecord>& records,
                                  ModalEstimate& estimate) const {
   const auto is_base = [](const ChannelInfo& channel) { return channel.is_base; };
+  const auto is_region_at_rest = [](const ChannelInfo& c) { return c.is_witness && !witnesses_turn(c); };
   const auto is_displacement = [](const ChannelInfo& channel) { return channel.n_integrations == 0; };
   if (estimate.poles.empty() || std::count_if(channels_.begin(), channels_.end(), is_base) != 1) return;
   if (!std::all_of(channels_.begin(), channels_.end(), is_displacement)) return;
+  if (std::none_of(channels_.begin(), channels_.end(), is_region_at_rest)) return;
   const auto base = static_cast<int>(std::find_if(channels_.begin(), channels_.end(), is_base) - channels_.begin());
   if (measured_inputs(sums, channels_).empty()) return;
   const CpsdSums relative = relative_to_base(sums, delays_as_undone(), base);
