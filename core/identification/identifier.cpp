@@ -63,7 +63,7 @@ VerdictRules verdict_rules(const IdentifierConfig& config, const std::vector<Cha
   if (!(config.edge_hz > 0.0)) rules.max_frequency_hz = config.max_frequency_hz;
   rules.record_s = sums.n_remembered() / sums.rate_hz;
   rules.resolution_hz = resolution_hz(sums);
-  rules.samples_per_row = sums.n_remembered() / static_cast<double>(fit.era.block_rows * sums.n_channels);
+  rules.samples_per_row = sums.n_remembered() / (fit.era.block_rows * static_cast<double>(n_resolved(channels)));
   return rules;
 }
 

@@ -58,11 +58,6 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
   return spread;
 }
 
-// Channels that share the rows: the rotation of the camera has no dynamics to be resolved.
-std::size_t n_resolved(const std::vector<ChannelInfo>& channels) {
-  return channels.size() - static_cast<std::size_t>(std::count_if(channels.begin(), channels.end(), witnesses_turn));
-}
-
 int block_rows_of(const CpsdSums& sums, int most_rows, std::size_t n_channels) {
   const double rows = std::min<double>(most_rows, sums.n_remembered() / kSamplesPerRow);
   // The weights contain the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
@@ -163,6 +158,10 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   if (out.order == 0) out.last_first_i_order = -1;
   out.order = std::max(2, out.order);
   return "ok";
+}
+
+std::size_t n_resolved(const std::vector<ChannelInfo>& channels) {
+  return channels.size() - static_cast<std::size_t>(std::count_if(channels.begin(), channels.end(), witnesses_turn));
 }
 
 int longer_block_rows(const CpsdSums& sums, const IdentifierConfig& config, const ModelFit& fit,

@@ -27,6 +27,9 @@ struct ModelFit {
 [[nodiscard]] std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config,
                                     const std::vector<ChannelInfo>& channels, ModelFit& out);
 
+// Channels that share the rows: the camera's rotation is an input without dynamics to be resolved.
+[[nodiscard]] std::size_t n_resolved(const std::vector<ChannelInfo>& channels);
+
 // More block rows than this fit has, for lines closer than their widths; 0 where the configuration fixes them, or where
 // the record or the time of an update has no room for more.
 [[nodiscard]] int longer_block_rows(const CpsdSums& sums, const IdentifierConfig& config, const ModelFit& fit,
