@@ -26,7 +26,7 @@ std::vector<Listed> listed(std::vector<Mode>& modes, int first) {
   return out;
 }
 
-// Writes both lists, each by frequency, and the indices of the diagram's poles anew.
+// Writes both lists, each by frequency, and renumbers the lines that the diagram's poles name.
 void list_anew(std::vector<Listed> structural, std::vector<Listed> rejected, ModalEstimate& estimate) {
   const auto n_before = estimate.modes.size() + estimate.rejected.size();
   estimate.modes.clear(), estimate.rejected.clear();

@@ -17,10 +17,18 @@ constexpr double kSameAxis = 0.99;
 constexpr double kLeastCoherence = 0.6, kLeastGain = 0.6;
 constexpr double kByChance = 1e-3;
 
-std::complex<double> cross_of(const CpsdSums& sums, int bin, int i, int j) {
-  const Complex value = sums.data_sum[static_cast<std::size_t>(
-      bin * sums.n_pairs() + CpsdSums::pair_index(std::min(i, j), std::max(i, j), sums.n_channels))];
+std::size_t pair_of(const CpsdSums& sums, int i, int j) {
+  return static_cast<std::size_t>(CpsdSums::pair_index(std::min(i, j), std::max(i, j), sums.n_channels));
+}
+
+Complex cross_of(const CpsdSums& sums, int bin, int i, int j) {
+  const Complex value = sums.data_sum[static_cast<std::size_t>(bin * sums.n_pairs()) + pair_of(sums, i, j)];
   return i > j ? std::conj(value) : value;
+}
+
+// The coherence of n independent segments exceeds c by chance with probability (1 - c)^(n - 1).
+double least_coherence_of(double n_segments) {
+  return n_segments > 1.0 ? std::max(kLeastCoherence, 1.0 - std::pow(kByChance, 1.0 / (n_segments - 1.0))) : 1.0;
 }
 
 class RelativeSums {
@@ -57,18 +65,15 @@ class RelativeSums {
                        : Complex();
     }
   }
-  [[nodiscard]] std::size_t pair(int i, int j) const {
-    return static_cast<std::size_t>(CpsdSums::pair_index(std::min(i, j), std::max(i, j), sums_.n_channels));
-  }
   // As if the pair lacked the samples that (i, j) lack.
   [[nodiscard]] Complex cross(const std::vector<Complex>& before, int a, int b, std::size_t like) const {
-    const std::size_t own = pair(a, b);
+    const std::size_t own = pair_of(sums_, a, b);
     const Complex value = before[own] * (zero_lag_[own] > 0.0 ? zero_lag_[like] / zero_lag_[own] : 1.0);
     return a > b ? std::conj(value) : value;
   }
   [[nodiscard]] Complex relative(const std::vector<Complex>& before, int i, int j) const {
     const Complex ti = turn_[static_cast<std::size_t>(i)], tj = turn_[static_cast<std::size_t>(j)];
-    const std::size_t like = pair(i, j);
+    const std::size_t like = pair_of(sums_, i, j);
     return cross(before, i, j, like) - ti * cross(before, base_, j, like) -
            std::conj(tj) * cross(before, i, base_, like) + ti * std::conj(tj) * cross(before, base_, base_, like);
   }
@@ -90,11 +95,13 @@ CpsdSums relative_to_base(const CpsdSums& sums, const std::vector<ChannelInfo>& 
   return out;
 }
 
-// The coherence of n independent segments exceeds c by chance with probability (1 - c)^(n - 1).
-double SharedMotion::least_coherence() const {
-  const double n = sums_.weight.effective();
-  return n > 1.0 ? std::max(kLeastCoherence, 1.0 - std::pow(kByChance, 1.0 / (n - 1.0))) : 1.0;
-}
+SharedMotion::SharedMotion(const CpsdSums& sums, const CpsdSums& relative, const std::vector<ChannelInfo>& channels,
+                           int base)
+    : sums_(sums),
+      relative_(relative),
+      channels_(channels),
+      base_(base),
+      least_coherence_(least_coherence_of(sums.weight.effective())) {}
 
 // Sums of three bins, because a Hann window spreads a line over three.
 bool SharedMotion::in_bin(int bin) const {
@@ -116,7 +123,7 @@ bool SharedMotion::in_bin(int bin) const {
       if (power > 0.0 && rest > 0.0) coherence = std::max(coherence, std::norm(cross) / (power * rest));
     }
   }
-  return coherence > least_coherence() && largest > kLeastGain * kLeastGain * camera;
+  return coherence > least_coherence_ && largest > kLeastGain * kLeastGain * camera;
 }
 
 bool SharedMotion::at(double apparent_hz) const {

@@ -20,19 +20,18 @@ namespace core {
 class SharedMotion {
  public:
   // relative: of relative_to_base(sums, channels, base). Borrows its arguments.
-  SharedMotion(const CpsdSums& sums, const CpsdSums& relative, const std::vector<ChannelInfo>& channels, int base)
-      : sums_(sums), relative_(relative), channels_(channels), base_(base) {}
+  SharedMotion(const CpsdSums& sums, const CpsdSums& relative, const std::vector<ChannelInfo>& channels, int base);
 
   [[nodiscard]] bool at(double apparent_hz) const;
   [[nodiscard]] bool anywhere() const;
 
  private:
   [[nodiscard]] bool in_bin(int bin) const;
-  [[nodiscard]] double least_coherence() const;
 
   const CpsdSums &sums_, &relative_;
   const std::vector<ChannelInfo>& channels_;
   int base_;
+  double least_coherence_;
 };
 
 }  // namespace core
