@@ -22,6 +22,7 @@ struct Listed {
 
 std::vector<Listed> listed(std::vector<Mode>& modes, int first) {
   std::vector<Listed> out;
+  out.reserve(modes.size());
   for (Mode& mode : modes) out.push_back({std::move(mode), first++});
   return out;
 }
@@ -78,6 +79,7 @@ void Identifier::identify_shared(const CpsdSums& sums, const std::vector<Channel
 
   const std::vector<std::size_t> kept = relative_channels(channels_);
   std::vector<ChannelRecord> kept_records;
+  kept_records.reserve(kept.size());
   for (const std::size_t c : kept) kept_records.push_back(records[c]);
   ModalEstimate of_relative;
   with_channels(kept).identify_modes(select_channels(relative, kept), kept_records, nullptr, of_relative);
