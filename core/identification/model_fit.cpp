@@ -52,6 +52,7 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
   const auto n = static_cast<int>(structure.size());
   if (n <= kMaxReferences) return structure;
   std::vector<int> spread;  // evenly over the channels, both ends included
+  spread.reserve(kMaxReferences);
   for (int k = 0; k < kMaxReferences; ++k) {
     spread.push_back(structure[static_cast<std::size_t>(k * (n - 1) / (kMaxReferences - 1))]);
   }

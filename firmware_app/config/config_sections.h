@@ -25,6 +25,9 @@ void add_scale_keys(std::vector<ConfigKey>& keys);
 void add_tracking_keys(std::vector<ConfigKey>& keys);
 void add_analysis_keys(std::vector<ConfigKey>& keys);
 void add_closure_keys(std::vector<ConfigKey>& keys);
-void add_output_keys(std::vector<ConfigKey>& keys);
+void add_telemetry_keys(std::vector<ConfigKey>& keys);
+void add_report_keys(std::vector<ConfigKey>& keys);
+void add_storage_keys(std::vector<ConfigKey>& keys);
+void add_real_time_keys(std::vector<ConfigKey>& keys);
 
 }  // namespace app

@@ -111,7 +111,7 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
                "\"\" = none"));
 }
 
-void add_output_keys(std::vector<ConfigKey>& keys) {
+void add_telemetry_keys(std::vector<ConfigKey>& keys) {
   using T = TelemetryConfig;
   keys.push_back(text_key("telemetry.lcm_url", at(&A::telemetry, &T::lcm_url), {},
                           "URL to which LCM messages are sent; \"\" = no telemetry"));
@@ -133,6 +133,9 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                             "stream time between two preview images for the ground, about 10 kB each; 0 = none"));
   keys.push_back(whole_key("telemetry.preview_px", "px", at(&A::telemetry, &T::preview_px), {64, 1024},
                            "largest long side of a preview image"));
+}
+
+void add_report_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(text_key("report.directory", at(&A::report, &ReportConfig::directory), {},
                           "folder for modal.json and CSV files; \"\" = none; --report takes precedence"));
   keys.push_back(
@@ -148,6 +151,9 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(text_key("report.compare", at(&A::report, &ReportConfig::compare), {},
                           "modal.json of a former run, or truth.json of a model, with which report.html compares the "
                           "modes; \"\" = none"));
+}
+
+void add_storage_keys(std::vector<ConfigKey>& keys) {
   using O = RecordConfig;
   keys.push_back(text_key("record.directory", at(&A::record, &O::directory), {},
                           "folder for run records (LCM event logs with messages, every point in full precision, and "
@@ -165,6 +171,9 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(number_key("state.period_s", "s", at(&A::state, &P::period_s), {0.1, 86400},
                             "stream time between two checkpoints: the largest part of the record that a loss of power "
                             "can cost"));
+}
+
+void add_real_time_keys(std::vector<ConfigKey>& keys) {
   using R = RtConfig;
   keys.push_back(switch_key("rt.required", at(&A::rt, &R::required),
                             "refuse to run if priority or memory lock is denied (exit code 4)"));

@@ -28,7 +28,10 @@ std::vector<ConfigKey> build_keys() {
   add_tracking_keys(keys);
   add_analysis_keys(keys);
   add_closure_keys(keys);
-  add_output_keys(keys);
+  add_telemetry_keys(keys);
+  add_report_keys(keys);
+  add_storage_keys(keys);
+  add_real_time_keys(keys);
   return keys;
 }
 

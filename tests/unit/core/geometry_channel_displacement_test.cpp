@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -244,7 +245,7 @@ TEST(ChannelDisplacementPaper, MovesSamplesToRowZeroAssumingAFullFrameOfReadout)
   const auto steady = [](std::size_t, double t) { return 30.0 * t; };
   Measured paper(config, view.frame(0.0, steady, no_zoom));
   EXPECT_EQ(paper.channels.channels()[2].row_delay_s, 0.0);
-  double begin_mm[3]{};
+  std::array<double, 3> begin_mm{};
   for (int k = 0; k <= 5; ++k) {
     TrackFrame tracks = view.frame(k / view.rate_hz, steady, no_zoom);
     const DisplacementSample& sample = paper(tracks);
