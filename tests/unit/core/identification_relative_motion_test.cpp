@@ -97,10 +97,11 @@ TEST(RelativeMotion, TheCameraCancelsAtTheInstantOfEachRow) {
   const CpsdSums relative = relative_to_base(sums, channels, 0);
   const auto power = [](const CpsdSums& of, int c) {
     double sum = 0.0;
-    for (int k = 0; k < of.n_bins(); ++k)
+    for (int k = 0; k < of.n_bins(); ++k) {
       sum += of.data_sum[static_cast<std::size_t>(k) * static_cast<std::size_t>(of.n_pairs()) +
                          static_cast<std::size_t>(CpsdSums::pair_index(c, c, 3))]
                  .real();
+    }
     return sum;
   };
   EXPECT_EQ(power(relative, 0), power(sums, 0));
