@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/identification/camera_leakage.h"
+#include "core/identification/chance_poles.h"
 #include "core/identification/combination_lines.h"
 #include "core/identification/field_shapes.h"
 #include "core/identification/line_evidence.h"
@@ -207,6 +208,7 @@ void Identifier::identify_modes(const CpsdSums& sums, const std::vector<ChannelR
   estimate.degrees_of_freedom = sigmas.degrees_of_freedom;
   std::vector<bool> along(modes.size(), false);
   if (!config_.as_published) {
+    reject_chance_poles(rules.record_s, modes);
     reject_out_of_phase(config_.min_mpc, sigmas, modes);
     reject_mixtures(modes);
     reject_twins(modes);

@@ -17,10 +17,6 @@ namespace {
 // integral of w(t)^2 w(t + 1/2)^2 over that of w^4 = (3/128) / (35/128).
 constexpr double kOverlapCorrelation = 3.0 / 35.0;
 
-struct Variances {
-  double frequency_hz = 0.0, damping_ratio = 0.0;
-};
-
 // Median absolute deviation, for normal errors the standard deviation, squared.
 double robust_variance(std::vector<double> deviation) {
   if (deviation.empty()) return 0.0;
@@ -28,20 +24,13 @@ double robust_variance(std::vector<double> deviation) {
   return std::pow(kSigmaPerMad * median_in_place(deviation), 2);
 }
 
-Variances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {
+ModeVariances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {
   std::vector<double> f, zeta;
   for (const std::size_t member : line.members) {
     f.push_back(frequency_hz(poles[member].pole.s) - line.frequency_hz);
     zeta.push_back(damping_ratio(poles[member].pole.s) - line.damping_ratio);
   }
   return {robust_variance(std::move(f)), robust_variance(std::move(zeta))};
-}
-
-// sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta / zeta = 1 / sqrt(2 pi zeta f T).
-Variances lower_bound(const Mode& mode, double duration_s) {
-  const double turns = kTwoPi * mode.frequency_hz * duration_s, zeta = std::max(0.0, mode.damping_ratio);
-  if (!(turns > 0.0)) return {};
-  return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
 }
 
 // By the overlap of neighbouring segments: a factor of variances.
@@ -55,13 +44,19 @@ void raise(ModeScatter& scatter, double factor) {
 
 double raised(double sigma, double spread, double bound) { return std::sqrt(std::max(sigma * sigma + spread, bound)); }
 
-void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, Mode& mode) {
+void state(const ModeScatter& scatter, const ModeVariances& spread, const ModeVariances& bound, Mode& mode) {
   mode.frequency_std_hz = raised(scatter.frequency_hz, spread.frequency_hz, bound.frequency_hz);
   mode.damping_std = raised(scatter.damping_ratio, spread.damping_ratio, bound.damping_ratio);
   mode.shape_std = scatter.shape;
 }
 
 }  // namespace
+
+ModeVariances least_variances(const Mode& mode, double duration_s) {
+  const double turns = kTwoPi * mode.frequency_hz * duration_s, zeta = std::max(0.0, mode.damping_ratio);
+  if (!(turns > 0.0)) return {};
+  return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
+}
 
 // With r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K times the sum of
 // their variances.
@@ -89,7 +84,7 @@ Sigmas state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
   const double duration_s = in.sums.n_remembered() / in.sums.rate_hz;
   // The bound is that of an unknown force; a measured input leaves none.
   const auto bound_of = [&](const Mode& mode) {
-    return in.fit.era.inputs.empty() ? lower_bound(mode, duration_s) : Variances{};
+    return in.fit.era.inputs.empty() ? least_variances(mode, duration_s) : ModeVariances{};
   };
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const PoleCluster& line = lines[line_of[c]];

@@ -15,6 +15,13 @@
 
 namespace core {
 
+struct ModeVariances {
+  double frequency_hz = 0.0, damping_ratio = 0.0;  // Hz^2, 1
+};
+// Under an unknown force no estimate has less: sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta / zeta = 1 / sqrt(2 pi
+// zeta f T). {0, 0} for a mode without a frequency.
+[[nodiscard]] ModeVariances least_variances(const Mode& mode, double duration_s);
+
 // Poles of all orders of one realisation; observed[i], unfolded[i] and leaks[i] belong to the same pole.
 struct SigmaInputs {
   const CpsdSums& sums;

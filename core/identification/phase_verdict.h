@@ -8,7 +8,7 @@
 namespace core {
 
 // Chance puts a part of a shape's square beside its line (ModeScatter::beside_line). A shape is in phase within chance
-// if no more than 2.5 times that part lies there. Chance is no explanation where the frequency is not known to a
+// if no more than 3.5 times that part lies there. Chance is no explanation where the frequency is not known to a
 // quarter of the half-power width: such a pole may have any phases. modes[i] belongs to sigmas.scatter[i].
 
 // A mode that holds so far and is not in phase within chance becomes numerical with an MPC below `min_mpc`, and

@@ -94,8 +94,8 @@ void add_scale_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(
       switch_key("scale.only", at(&A::scale, &C::only),
                  "estimate only the camera's distance; false: also its rotation and translation, if a focal "
-                 "length is known and a static region is in view (role background or ground); recommended in "
-                 "wind; adds the background's noise"));
+                 "length is known and a static region is in view (role background or ground); for gusts that turn "
+                 "the camera by several degrees; adds the background's noise, which costs modes otherwise"));
 }
 
 }  // namespace app

@@ -1,0 +1,69 @@
+#include "core/identification/chance_poles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/identification/mode_sigmas.h"
+
+namespace core {
+namespace {
+
+constexpr double kDuration_s = 200.0;
+
+// sigma_times: of the frequency, times the least one.
+std::vector<Mode> one_mode(double presence, double sigma_times, Verdict verdict = Verdict::kStructural) {
+  Mode mode;
+  mode.verdict = verdict;
+  mode.frequency_hz = 7.0, mode.damping_ratio = 0.015, mode.presence = presence;
+  mode.frequency_std_hz = sigma_times * std::sqrt(least_variances(mode, kDuration_s).frequency_hz);
+  mode.damping_std = 0.003;
+  mode.shape_std = {0.2, 0.0};
+  return {mode};
+}
+
+TEST(LeastVariances, AreThoseOfAnUnknownForce) {
+  const Mode mode = one_mode(1.0, 1.0)[0];
+  const double turns = 2.0 * std::numbers::pi * 7.0 * kDuration_s;
+  EXPECT_NEAR(std::sqrt(least_variances(mode, kDuration_s).frequency_hz), 7.0 * std::sqrt(0.015 / turns), 1e-12);
+  EXPECT_NEAR(std::sqrt(least_variances(mode, kDuration_s).damping_ratio), 0.015 / std::sqrt(0.015 * turns), 1e-12);
+}
+
+TEST(ChancePoles, APoleMissingInAnOrderAndPoorlyKnownIsNumerical) {
+  for (const Verdict verdict : {Verdict::kStructural, Verdict::kAmbiguous}) {
+    std::vector<Mode> modes = one_mode(14.0 / 15.0, 3.5, verdict);
+    reject_chance_poles(kDuration_s, modes);
+    EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
+    EXPECT_NE(modes[0].reason.find("93 % of the orders"), std::string::npos) << modes[0].reason;
+    EXPECT_NE(modes[0].reason.find("3.5 times better"), std::string::npos) << modes[0].reason;
+    EXPECT_FALSE(modes[0].frequency_std_hz || modes[0].damping_std);
+    EXPECT_TRUE(modes[0].shape_std.empty());
+  }
+}
+
+TEST(ChancePoles, APoleOfAllOrdersOrWithAWellKnownFrequencyStays) {
+  for (const auto& [presence, times] : {std::pair(1.0, 10.0), std::pair(13.0 / 15.0, 2.5)}) {
+    std::vector<Mode> modes = one_mode(presence, times);
+    reject_chance_poles(kDuration_s, modes);
+    EXPECT_EQ(modes[0].verdict, Verdict::kStructural) << presence;
+    EXPECT_TRUE(modes[0].frequency_std_hz.has_value());
+  }
+}
+
+TEST(ChancePoles, WithoutASigmaOrDampingThereIsNothingToCompare) {
+  std::vector<Mode> modes = one_mode(0.9, 10.0), undamped = one_mode(0.9, 10.0);
+  modes[0].frequency_std_hz.reset();
+  undamped[0].damping_ratio = -0.001;
+  modes.push_back(undamped[0]);
+  modes.push_back(one_mode(0.9, 10.0, Verdict::kCandidate)[0]);
+  reject_chance_poles(kDuration_s, modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
+  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
+  EXPECT_EQ(modes[2].verdict, Verdict::kCandidate);
+}
+
+}  // namespace
+}  // namespace core
