@@ -171,6 +171,8 @@ constexpr std::array kChecks{
     Check{"geometry-pixels-drawn", "the same with camera, structure and noise drawn",
           geometry<print_geometry_pixels, true>, kFlights | kReport},
     Check{"trust-modes", "every mode of a record, and the intervals stated", geometry<print_trust_modes>, kFlights},
+    Check{"trust-disturbed", "the same with lost frames, and under a camera that vibrates",
+          geometry<print_trust_disturbed>, kFlights},
     Check{"trust-camera", "the modes of a record under a shaking camera, beside those under a still one",
           geometry<print_trust_camera>, kFlights},
     Check{"trust-lines", "lines of a machine beside a mode, and of the rotors", geometry<print_lines_beside_modes>,

@@ -9,6 +9,9 @@ namespace tools {
 // lines.
 void print_trust_modes(const GeometryOptions& options);
 
+// The same for the shaken base and the wind with lost frames, and under a camera that vibrates.
+void print_trust_disturbed(const GeometryOptions& options);
+
 // Modes found under a camera that shakes and turns, and under the hover alone, by each way of following the camera.
 void print_trust_camera(const GeometryOptions& options);
 

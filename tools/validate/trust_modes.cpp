@@ -8,11 +8,13 @@
 
 #include "core/identification/mac.h"
 #include "core/identification/uncertainty.h"
+#include "tools/validate/drawn_scene.h"
 #include "tools/validate/geometry_score.h"
 #include "tools/validate/identification_match.h"
 #include "tools/validate/identification_parallel.h"
 #include "tools/validate/trust.h"
 #include "tools/validate/trust_scene.h"
+#include "tools/validate/trust_shaking.h"
 
 namespace tools {
 namespace {
@@ -20,6 +22,11 @@ namespace {
 using core::Mode;
 using core::simulation::TrueMode;
 using Shape = std::vector<std::complex<double>>;
+
+struct TrustCase {
+  Drive drive = Drive::kTable;
+  Disturbance disturbance = Disturbance::kNone;
+};
 
 // Relative to the base, without the base itself.
 Shape relative_to_base(const Shape& shape, const std::vector<core::ChannelInfo>& channels) {
@@ -96,10 +103,16 @@ void print_poles(const std::string& key, const Match& match, const std::vector<T
   }
 }
 
-void print_trust_record(Drive drive, std::uint64_t seed, const TrustFlight& flight, const Analysed& way) {
+std::string key_of(const TrustCase& which, std::uint64_t seed, double duration_s) {
+  const char* drive = word_for(which.drive);
+  return which.disturbance == Disturbance::kNone
+             ? fmt::format("{}\t{:g}\t{}", drive, duration_s, seed)
+             : fmt::format("{}+{}\t{:g}\t{}", drive, word_for(which.disturbance), duration_s, seed);
+}
+
+void print_trust_record(const std::string& key, const TrustFlight& flight, const Analysed& way) {
   const auto truth = shaken_modes(flight.job.scene());
   const Match match = match_modes(way.measured, truth, way.channels);
-  const std::string key = fmt::format("{}\t{:g}\t{}", word_for(drive), flight.job.scene().duration_s, seed);
   const auto n_stated = std::count_if(way.measured.modes.begin(), way.measured.modes.end(),
                                       [](const Mode& mode) { return mode.frequency_std_hz && mode.damping_std; });
   const auto n_wrong = std::count_if(match.modes.begin(), match.modes.end(),
@@ -110,11 +123,18 @@ void print_trust_record(Drive drive, std::uint64_t seed, const TrustFlight& flig
   print_poles(key, match, truth, way);
 }
 
-}  // namespace
+TrustFlight disturbed_flight(const TrustCase& which, std::uint64_t seed, double duration_s,
+                             const GeometryOptions& options) {
+  TrustFlight out = trust_flight(which.drive, seed, duration_s, options);
+  if (which.disturbance == Disturbance::kLosses)
+    out.job.file.scene.timing.drop_probability = Draw(seed, "trust_losses").uniform(0.1, 0.3);
+  if (which.disturbance == Disturbance::kVibration) (void)shake_camera(out, which.drive, seed);
+  return out;
+}
 
-void print_trust_modes(const GeometryOptions& options) {
+void print_cases(const std::vector<TrustCase>& cases, const GeometryOptions& options) {
   fmt::print(
-      "# all: what drives the structure, s, seed\n"
+      "# all: what drives the structure (and disturbs the record), s, seed\n"
       "# trust-record: hover, segments, structural poles, of them with a stated sigma, those that are no mode\n"
       "# trust-mode: number, true Hz, below or folded (half the rate), found or absent, Hz, sigma, degrees of "
       "freedom,\n"
@@ -123,20 +143,37 @@ void print_trust_modes(const GeometryOptions& options) {
       "#   MAC of the shapes relative to the base\n"
       "# trust-rejected: number, true Hz, Hz, verdict, reason; trust-false: Hz, damping, reason\n");
   const double duration_s = options.duration_s > 0.0 ? options.duration_s : 120.0;
-  for (const Drive drive : kDrives) {
+  for (const TrustCase& which : cases) {
     struct Flown {
       TrustFlight flight;
       AnalysedFlight result;
     };
     const auto records = for_each_seed(options, [&](std::uint64_t seed) {
-      Flown out{trust_flight(drive, seed, duration_s, options), {}};
+      Flown out{disturbed_flight(which, seed, duration_s, options), {}};
       out.result = analyse_flight(out.flight.job, out.flight.setup, {{"ours"}});
       return out;
     });
-    for (std::size_t i = 0; i < records.size(); ++i)
-      print_trust_record(drive, static_cast<std::uint64_t>(options.first_seed) + i, records[i].flight,
-                         records[i].result.ways.front());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      const std::uint64_t seed = static_cast<std::uint64_t>(options.first_seed) + i;
+      print_trust_record(key_of(which, seed, duration_s), records[i].flight, records[i].result.ways.front());
+    }
   }
+}
+
+}  // namespace
+
+void print_trust_modes(const GeometryOptions& options) {
+  std::vector<TrustCase> cases;
+  for (const Drive drive : kDrives) cases.push_back({drive});
+  print_cases(cases, options);
+}
+
+void print_trust_disturbed(const GeometryOptions& options) {
+  std::vector<TrustCase> cases;
+  for (const Disturbance disturbance : {Disturbance::kLosses, Disturbance::kVibration}) {
+    for (const Drive drive : {Drive::kTable, Drive::kWind}) cases.push_back({drive, disturbance});
+  }
+  print_cases(cases, options);
 }
 
 }  // namespace tools

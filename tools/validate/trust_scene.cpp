@@ -44,6 +44,18 @@ const char* word_for(Drive drive) noexcept {
   return "";
 }
 
+const char* word_for(Disturbance disturbance) noexcept {
+  switch (disturbance) {
+    case Disturbance::kNone:
+      return "none";
+    case Disturbance::kLosses:
+      return "losses";
+    case Disturbance::kVibration:
+      return "vibration";
+  }
+  return "";
+}
+
 TrustFlight trust_flight(Drive drive, std::uint64_t seed, double duration_s, const GeometryOptions& options) {
   TrustFlight out;
   const double readout_ms = 40.0 * Draw(seed, "trust_readout").uniform(0.4, 1.0);
