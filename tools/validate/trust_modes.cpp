@@ -164,6 +164,7 @@ void print_cases(const std::vector<TrustCase>& cases, const GeometryOptions& opt
 
 void print_trust_modes(const GeometryOptions& options) {
   std::vector<TrustCase> cases;
+  cases.reserve(kDrives.size());
   for (const Drive drive : kDrives) cases.push_back({drive});
   print_cases(cases, options);
 }
