@@ -23,18 +23,6 @@ constexpr double kLeastSpread = 0.1;
 // Consecutive frames that contradict the estimated camera motion, after which it is given up.
 constexpr int kMostContradictedFrames = 50;
 
-std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera,
-                                             const TrackFrame& keyframe) {
-  std::vector<ScaleFactor::Point> points;
-  for (const TrackPoint& p : keyframe.points) {
-    const Region& region = regions[p.region];
-    const Vector2 axis = axis_of(region);
-    points.push_back({camera.undistort({p.u_px, p.v_px}), p.region, axis.u, axis.v, region.both_axes,
-                      region.role != RegionRole::kBackground});
-  }
-  return points;
-}
-
 // The keyframe as the declared camera, without corrections, would have seen it.
 TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame& keyframe) {
   TrackFrame out = keyframe;
@@ -77,13 +65,20 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     readout_share_.push_back(config_.readout.fraction(raw.u_px, raw.v_px));
   }
   position_ = motion_ = keyframe_;
+  if (config_.following == CameraFollowing::kSlow && config_.attitude) config_.following = CameraFollowing::kWhole;
   share_now_ = readout_share_;
   sigma_px_.assign(n, 0.0);
   seen_.assign(n, 0);
   inlier_ = inlier_before_ = seen_;
   if (config_.paper_method) shutter_ = make_published_shutter();
   make_channels();
-  if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
+  if (!config_.adaptive_scale || config_.following == CameraFollowing::kDistance || config_.paper_method) return;
+  if (config_.following == CameraFollowing::kSlow) {
+    if (!config_.camera.calibrated() || n_witnesses() == 0) return;
+    slow_rotation_.emplace(config_.camera.fx, config_.camera.fy, centre_of(resting(keyframe_)));
+    t_turned_ns_ = keyframe.t_start_ns;
+    return;
+  }
   const bool turns_measured = config_.attitude && config_.camera.calibrated();
   if (!turns_measured && !tells_camera_motion(config_.regions, config_.camera)) return;
   camera_motion_.emplace(make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px,
@@ -114,7 +109,7 @@ void ChannelDisplacement::make_channels() {
   const std::vector<RegionPoints> points = region_points();
   channels_ = channel_layout(config_.regions, points);
   spectra_ = channels_;
-  if (!config_.witness || !config_.scale_only || config_.paper_method) return;
+  if (!config_.witness || config_.following == CameraFollowing::kWhole || config_.paper_method) return;
   const WitnessNeeds needs{config_.min_points, kLeastSpread * config_.readout.height_px};
   for (ChannelInfo& witness : witness_layout(config_.regions, points, channels_, needs))
     spectra_.push_back(std::move(witness));
@@ -154,6 +149,7 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
     Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
     if (corrects_places_) ideal = config_.places.corrected(ideal);
     position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
+    if (slow_rotation_) position_[i] = slow_rotation_->undone(position_[i]);
     share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
     const bool stated = std::isfinite(point.sigma_px) && point.sigma_px >= 0.0;
     sigma_px_[i] = stated ? point.sigma_px : 1.0 / std::sqrt(weight_[i]);
@@ -228,13 +224,13 @@ double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
                                                         : config_.scale_mm_per_px;
 }
 
-ChannelDisplacement::Average ChannelDisplacement::average(const ChannelInfo& info) const noexcept {
-  const RegionRange& range = ranges_[info.region];
+ChannelDisplacement::Average ChannelDisplacement::average(std::uint16_t region, const Vector2& along) const noexcept {
+  const RegionRange& range = ranges_[region];
   double sum = 0.0, weight = 0.0, variance = 0.0;
   Average out;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (inlier_[i] == 0) continue;
-    sum += weight_[i] * (motion_[i].u * info.direction_u + motion_[i].v * info.direction_v);
+    sum += weight_[i] * (motion_[i].u * along.u + motion_[i].v * along.v);
     weight += weight_[i];
     variance += weight_[i] * weight_[i] * sigma_px_[i] * sigma_px_[i];
     ++out.n_points;
@@ -249,7 +245,7 @@ ChannelDisplacement::Average ChannelDisplacement::average(const ChannelInfo& inf
 void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
                                           DisplacementSample& out) const noexcept {
   const ChannelInfo& info = channels_[channel];
-  const Average mean = average(info);
+  const Average mean = average(info.region, {info.direction_u, info.direction_v});
   const double s0 = scale_of(info.region);
   const double camera_px =
       follows_camera() ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) : 0.0;
@@ -262,18 +258,23 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
 // A static region at another distance has another zoom; its points share one motion only after removal of that zoom.
 void ChannelDisplacement::follow_what_rests(DisplacementSample& out) noexcept {
   if (n_witnesses() == 0) return;
-  const RegionRange& range = ranges_[spectra_.back().region];
-  const std::size_t begin = range.begin, n = range.size();
-  const double turn_rad =
-      follow_resting_region({{position_.data() + begin, n}, {keyframe_.data() + begin, n}, {seen_.data() + begin, n}},
-                            config_.inlier_sigma_px, {motion_.data() + begin, n}, {inlier_.data() + begin, n});
+  const std::uint16_t region = spectra_.back().region;
+  const double turn_rad = follow_resting_region({resting(position_), resting(keyframe_), resting(seen_)},
+                                                config_.inlier_sigma_px, resting(motion_), resting(inlier_));
   for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
     const ChannelInfo& witness = spectra_[channels_.size() + w];
-    const Average mean = average(witness);
+    const Average mean = average(region, {witness.direction_u, witness.direction_v});
     const double moved_px = witnesses_turn(witness) ? 0.5 * config_.readout.height_px * turn_rad : mean.mean_px;
     out.witness_mm[w] = mean.enough ? config_.scale_mm_per_px * moved_px : 0.0;
     out.witness_seen[w] = mean.enough ? 1 : 0;
   }
+  if (!slow_rotation_) return;
+  const Average right = average(region, {1.0, 0.0}), down = average(region, {0.0, 1.0});
+  const double dt_s = 1e-9 * static_cast<double>(out.t_start_ns - t_turned_ns_);
+  if (!right.enough || !(dt_s > 0.0)) return;
+  const bool shows_turn = witnesses_turn(spectra_.back());
+  slow_rotation_->add({{right.mean_px, down.mean_px}, shows_turn ? turn_rad : 0.0}, dt_s);
+  t_turned_ns_ = out.t_start_ns;
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {

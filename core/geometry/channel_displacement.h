@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/attitude_prior.h"
+#include "core/geometry/camera_following.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
 #include "core/geometry/channel_layout.h"
@@ -12,6 +14,7 @@
 #include "core/geometry/published_shutter.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
+#include "core/geometry/slow_rotation.h"
 #include "core/types/displacement.h"
 #include "core/types/region.h"
 #include "core/types/track.h"
@@ -27,11 +30,11 @@ struct ChannelDisplacementConfig {
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
   // Scale per region, if an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
   std::vector<double> region_scale_mm_per_px = {};
-  std::optional<PlanePose> plane = {};  // of the structure; empty: frontal view
-  bool adaptive_scale = true;           // true: camera motion is removed; false: the camera is static
-  bool scale_only = false;              // only the distance is estimated (paper Eq. 6), from all points
-  bool witness = true;                  // with scale_only: static regions are measured as witnesses
-  bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  std::optional<PlanePose> plane = {};                  // of the structure; empty: frontal view
+  bool adaptive_scale = true;                           // true: camera motion is removed; false: the camera is static
+  CameraFollowing following = CameraFollowing::kWhole;  // kDistance where the camera's motion cannot be measured
+  bool witness = true;                                  // static regions are measured as witnesses, unless kWhole
+  bool paper_method = false;  // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   ShutterVelocity shutter_velocity = ShutterVelocity::kCamera;  // choice of V_rel in paper_method
   std::optional<AttitudeConfig> attitude = {};  // measured attitude, if any; delay_s contains half the exposure
   double inlier_sigma_px = 0.3;
@@ -43,13 +46,12 @@ struct ChannelDisplacementConfig {
 // inliers, along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal
 // point. Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated
 // motion. `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. Static regions (background, ground) are not channels. If only
-// the scale is estimated, the static region with the most points, without its own zoom, is a witness of the camera's
-// translation along each direction of the channels and, if its points spread far enough, of its rotation about the
-// optical axis.
-// Unobservable camera motion (sideways translation if only the structure is seen) remains in all channels alike;
-// sigma_mm does not contain it.
-// One thread; does not allocate after construction.
+// (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. Static regions (background, ground) are not channels. Unless
+// the whole motion of the camera is followed, the static region with the most points, without its own zoom, is a
+// witness of what stays of the camera's translation along each direction of the channels and, if its points spread far
+// enough, of its rotation about the optical axis. Unobservable camera motion (sideways translation if only the
+// structure is seen) remains in all channels alike; sigma_mm does not contain it. One thread; does not allocate after
+// construction.
 class ChannelDisplacement {
  public:
   // raw_keyframe: tracks of the first frame; it must contain every later point, seen.
@@ -105,7 +107,13 @@ class ChannelDisplacement {
     std::uint16_t n_points = 0;
     bool enough = false;
   };
-  [[nodiscard]] Average average(const ChannelInfo& info) const noexcept;
+  [[nodiscard]] Average average(std::uint16_t region, const Vector2& along) const noexcept;
+  // Part of a list of points that belongs to the region of the witnesses.
+  template <class T>
+  [[nodiscard]] std::span<T> resting(std::vector<T>& of_points) const noexcept {
+    const RegionRange& range = ranges_[spectra_.back().region];
+    return {of_points.data() + range.begin, range.size()};
+  }
   void average_channel(std::size_t channel, double magnification, DisplacementSample& out) const noexcept;
 
   ChannelDisplacementConfig config_;
@@ -120,9 +128,11 @@ class ChannelDisplacement {
   bool camera_given_up_ = false;
   std::optional<CameraMotionEstimator> camera_motion_;  // empty: scale only, paper, or a static camera
   std::optional<AttitudePrior> attitude_;
-  std::vector<Vector2> position_, motion_;    // undistorted px from the principal point; motion since the keyframe
-                                              // without the camera's motion, keyframe px
-  std::vector<double> share_now_, sigma_px_;  // readout fraction of the point's present row; sigma in this frame
+  std::optional<SlowRotation> slow_rotation_;  // removed from position_
+  std::int64_t t_turned_ns_ = 0;               // frame of its last update
+  std::vector<Vector2> position_, motion_;     // undistorted px from the principal point; motion since the keyframe
+                                               // without the camera's motion, keyframe px
+  std::vector<double> share_now_, sigma_px_;   // readout fraction of the point's present row; sigma in this frame
   std::vector<std::uint8_t> seen_, inlier_, inlier_before_;
   PublishedShutter shutter_;  // paper mode
 };

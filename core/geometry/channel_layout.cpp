@@ -10,12 +10,18 @@
 
 namespace core {
 
-double spread_px(std::span<const Vector2> points) noexcept {
+Vector2 centre_of(std::span<const Vector2> points) noexcept {
   const auto n = static_cast<double>(points.size());
-  double u = 0.0, v = 0.0, squares = 0.0;
-  for (const Vector2& p : points) u += p.u / n, v += p.v / n;
+  Vector2 centre;
+  for (const Vector2& p : points) centre.u += p.u / n, centre.v += p.v / n;
+  return centre;
+}
+
+double spread_px(std::span<const Vector2> points) noexcept {
+  const auto [u, v] = centre_of(points);
+  double squares = 0.0;
   for (const Vector2& p : points) squares += (p.u - u) * (p.u - u) + (p.v - v) * (p.v - v);
-  return points.empty() ? 0.0 : std::sqrt(squares / n);
+  return points.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(points.size()));
 }
 
 std::string_view without_axis(std::string_view channel) noexcept {

@@ -18,6 +18,8 @@ struct RegionPoints {
   double spread_px = 0.0;  // rms distance of the points from their centre
 };
 
+// Both: 0 without points.
+[[nodiscard]] Vector2 centre_of(std::span<const Vector2> points) noexcept;
 [[nodiscard]] double spread_px(std::span<const Vector2> points) noexcept;
 
 // Channels of the structure and base regions, in their order: one along the region's axis, or two (u, v).

@@ -101,6 +101,18 @@ CameraMotionEstimator make_camera_motion(const std::vector<Region>& regions, con
   return {config, points, about, static_cast<double>(keyframe.t_start_ns) * 1e-9};
 }
 
+std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera,
+                                             const TrackFrame& keyframe) {
+  std::vector<ScaleFactor::Point> points;
+  for (const TrackPoint& p : keyframe.points) {
+    const Region& region = regions[p.region];
+    const Vector2 axis = axis_of(region);
+    points.push_back({camera.undistort({p.u_px, p.v_px}), p.region, axis.u, axis.v, region.both_axes,
+                      region.role != RegionRole::kBackground});
+  }
+  return points;
+}
+
 Vector2 axis_of(const Region& region) noexcept {
   const double angle = region.axis_deg * std::numbers::pi / 180.0;
   return {std::cos(angle), std::sin(angle)};

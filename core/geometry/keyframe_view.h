@@ -7,6 +7,7 @@
 #include "core/geometry/camera_motion.h"
 #include "core/geometry/plane_pose.h"
 #include "core/geometry/rolling_shutter.h"
+#include "core/geometry/scale_factor.h"
 #include "core/types/region.h"
 #include "core/types/track.h"
 
@@ -23,6 +24,10 @@ namespace core {
                                                        const ReadoutModel& readout, double scale_mm_per_px,
                                                        const TrackFrame& keyframe,
                                                        const std::optional<PlanePose>& plane = std::nullopt);
+
+// Points of the keyframe for the scale per frame.
+[[nodiscard]] std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions,
+                                                           const CameraModel& camera, const TrackFrame& keyframe);
 
 // Unit vector of the axis along which a region moves (Region::axis_deg).
 [[nodiscard]] Vector2 axis_of(const Region& region) noexcept;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/camera_following.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/published_shutter.h"
 #include "core/types/frame.h"
@@ -59,7 +60,7 @@ struct ScaleConfig {
   double point_sigma_px = 0.5;                 // standard deviation of these pixels, per axis
   double max_obliqueness_deg = 10.0;           // largest angle to the image plane not excluded
   bool adaptive = true;                        // false: the camera is fixed (a tripod)
-  bool only = true;                            // estimate only the camera's distance (Eq. 6)
+  core::CameraFollowing following = core::CameraFollowing::kSlow;  // kDistance: only the camera's distance (Eq. 6)
 };
 
 struct TrackingConfig {

@@ -79,7 +79,7 @@ void add_attitude_keys(std::vector<ConfigKey>& keys) {
       with_default(text_key("camera.attitude_file", at(&A::camera, &C::attitude_file), {},
                             "CSV file with the attitude of the aircraft or gimbal on the frames' clock: t_s, and "
                             "roll_deg, pitch_deg, yaw_deg or qw, qx, qy, qz; measures the camera's rotation where no "
-                            "static region is in view (needs a calibration and scale.only: false)"),
+                            "static region is in view (needs a calibration, and not scale.only: true)"),
                    "none"));
   keys.push_back(
       with_default(text_key("camera.attitude_channel", at(&A::camera, &C::attitude_channel), {0, 63, true},

@@ -56,7 +56,7 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
                  "that changes; 0 = all segments count alike"));
   keys.push_back(switch_key(
       "spectrum.witness", at(&A::spectrum, &S::witness),
-      "with scale.only: treat motion coherent with a static region (background, ground) as camera "
+      "unless scale.only is false: treat motion coherent with a static region (background, ground) as camera "
       "motion and remove it from the mode shapes; beside a base, and for the camera's roll, it is a measured "
       "input of the identification"));
   using I = IdentificationConfig;

@@ -91,11 +91,15 @@ void add_scale_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
                             "estimate the camera's distance (and motion, see scale.only) in every frame; false: the "
                             "camera is fixed (tripod)"));
-  keys.push_back(
-      switch_key("scale.only", at(&A::scale, &C::only),
-                 "estimate only the camera's distance; false: also its rotation and translation, if a focal "
-                 "length is known and a static region is in view (role background or ground); for gusts that turn "
-                 "the camera by several degrees; adds the background's noise, which costs modes otherwise"));
+  keys.push_back(choice_key<core::CameraFollowing>(
+      "scale.only", at(&A::scale, &C::following),
+      {{"true", core::CameraFollowing::kDistance},
+       {"false", core::CameraFollowing::kWhole},
+       {"auto", core::CameraFollowing::kSlow}},
+      "true: estimate only the camera's distance; false: also its rotation and translation, if a focal length "
+      "is known and a static region is in view (role background or ground), which adds that region's noise; "
+      "auto: the rotation slower than 1 Hz; what is left is taken out of the modes as the static region measures it "
+      "(spectrum.witness)"));
 }
 
 }  // namespace app

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/geometry/keyframe_view.h"
+#include "core/geometry/slow_rotation.h"
 #include "core/identification/steady_lines.h"
 #include "core/types/constants.h"
 #include "drivers/host/memory_left.h"
@@ -48,17 +49,27 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
   const std::string scale = "scale per frame, least squares over all points";
   const bool rests = std::any_of(config.regions.begin(), config.regions.end(),
                                  [](const auto& r) { return !core::makes_channel(r.role); });
-  if (config.scale.only) {
-    return rests && config.spectrum.witness
+  const bool witnessed = rests && config.spectrum.witness;
+  const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
+  const bool shown = core::tells_camera_motion(config.regions, camera);
+  const bool is_slow = config.scale.following == core::CameraFollowing::kSlow && !told;
+  if (is_slow && witnessed && shown) {
+    return fmt::format(
+        "camera rotation slower than {:g} Hz, from a static region; {}; what is left of that region's motion is taken "
+        "out "
+        "of the modes",
+        core::SlowRotation::kSlow_hz, scale);
+  }
+  if (is_slow || config.scale.following == core::CameraFollowing::kDistance) {
+    return witnessed
                ? scale + "; the part of a mode shape that is coherent with a static region is removed as camera motion"
                : scale;
   }
-  const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
-  if (told && !core::tells_camera_motion(config.regions, camera)) {
+  if (told && !shown) {
     return "camera motion per frame from all points and a measured attitude: distance, rotation; "
            "translation along the channels' axes remains";
   }
-  if (!core::tells_camera_motion(config.regions, camera)) {
+  if (!shown) {
     return scale + (camera.calibrated()
                         ? "; no static region (role background or ground): the camera's rotation remains"
                         : "; no focal length is known: the camera's rotation remains");
@@ -98,7 +109,7 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
     out.plane = std::move(scale.plane);
   }
   out.adaptive_scale = config.scale.adaptive;
-  out.scale_only = config.scale.only;
+  out.following = config.scale.following;
   out.witness = config.spectrum.witness;
   out.paper_method = config.method == Method::kPaper;
   out.shutter_velocity = config.paper.velocity;

@@ -14,7 +14,7 @@ namespace tools {
 namespace {
 
 const std::string kOnlyTheEnd = "identification.period=10000";  // no intermediate estimates
-const std::string kWholeMotion = "scale.only=false";
+const std::string kWholeMotion = "scale.only=false", kDistance = "scale.only=true";
 
 // In addition to the recorded path: the aircraft's rotation of 1.1 degrees rms, of which a gimbal leaves 2 %.
 constexpr const char* kGimbal =
@@ -66,7 +66,7 @@ void print_wind(const GeometryOptions& options) {
       "hover: {x_rms_mm: 0, y_rms_mm: 0, z_rms_mm: 0, pitch_rms_deg: 1.667, yaw_rms_deg: 1.667, roll_rms_deg: 1.667}\n",
       identification(20.0, 1024), 0.25};
   which.ways = {{"ours", {kWholeMotion}},
-                {"scale"},
+                {"scale", {kDistance}},
                 {"ours-no-background", {kWholeMotion}, StatedReadout::kTrue, false},
                 {"ours-attitude", {kWholeMotion}, StatedReadout::kTrue, false, 0.05},
                 {"ours-attitude-0.1", {kWholeMotion}, StatedReadout::kTrue, false, 0.1},
@@ -84,7 +84,7 @@ void print_low_frequency(const GeometryOptions& options) {
           "15, readout_ms: 20}\ntracks: {points_per_region: 20}\n") +
           kGimbal,
       identification(0.0, 1024), 1.0, true};
-  which.ways = {{"ours", {kWholeMotion}}, {"scale"}, paper()};
+  which.ways = {{"ours", {kWholeMotion}}, {"scale", {kDistance}}, paper()};
   print_figure(which, {.with_structure = false, .segment_s = 1024.0 / 15.0, .looks_for_folds = false}, "mode 1",
                options);
 }

@@ -102,11 +102,21 @@ TEST(CameraMotionEstimate, GustsAreTakenAwayByABackgroundOfKnownDistance) {
   const TrackGenerator tracks(gusty_scene(5.0));
   ChannelDisplacementConfig config = config_of(tracks, 4.0);
   const Errors ours = errors_of(tracks, config);
-  config.scale_only = true;
+  config.following = CameraFollowing::kDistance;
   const Errors scale_only = errors_of(tracks, config);
   EXPECT_GT(scale_only.common_px, 50.0);
   EXPECT_LT(ours.common_px, 0.1 * scale_only.common_px);
   EXPECT_LT(ours.between_px, 0.1 * scale_only.between_px);
+}
+
+// Differences of channels show what no common motion expresses, above all the roll.
+TEST(CameraMotionEstimate, FollowingTheSlowRotationHalvesWhatGustsLeaveBetweenChannels) {
+  const TrackGenerator tracks(gusty_scene(5.0 / 3.0));
+  ChannelDisplacementConfig config = config_of(tracks, 4.0);
+  config.following = CameraFollowing::kSlow;
+  const Errors slow = errors_of(tracks, config);
+  config.following = CameraFollowing::kDistance;
+  EXPECT_LT(slow.between_px, 0.5 * errors_of(tracks, config).between_px);
 }
 
 // Translation looks like rotation to a background: for one twice as far away, half of it is removed.
@@ -116,9 +126,9 @@ TEST(CameraMotionEstimate, DriftIsHalvedByABackgroundAndTakenAwayByGroundInTheSt
   const TrackGenerator tracks(scene);
   ChannelDisplacementConfig config = config_of(tracks, 4.0);
   const Errors by_background = errors_of(tracks, config);
-  config.scale_only = true;
+  config.following = CameraFollowing::kDistance;
   const Errors scale_only = errors_of(tracks, config);
-  config.scale_only = false;
+  config.following = CameraFollowing::kWhole;
   const Errors by_ground = errors_of(tracks, with_ground(config));
   EXPECT_LT(by_background.common_px, 0.6 * scale_only.common_px);
   EXPECT_LT(by_ground.common_px, 0.02 * scale_only.common_px);

@@ -58,7 +58,7 @@ TEST(ChannelDisplacement, MeasuresEachPlateUnderMotionAndZoom) {
 TEST(ChannelDisplacement, FollowsWhatRestsAsAWitnessOfTheCamerasShift) {
   const PlateView view;
   ChannelDisplacementConfig config = view.config();
-  config.scale_only = true;
+  config.following = CameraFollowing::kDistance;
   config.regions[2].role = RegionRole::kBackground;
   const TrackFrame keyframe = view.frame(0.0, sway, drift);
   double centre_px = 0.0;  // of the wall, from the optical axis: it goes outward as the camera nears

@@ -18,7 +18,7 @@ double no_zoom(double) { return 1.0; }
 TEST(RestingRegion, OfPointsCloseTogetherNoRotationIsMeasured) {
   const PlateView view;
   ChannelDisplacementConfig config = view.config();
-  config.scale_only = true;
+  config.following = CameraFollowing::kDistance;
   config.readout.height_px = 4800;
   config.regions[2].role = RegionRole::kBackground;
   EXPECT_EQ(ChannelDisplacement(config, view.frame(0.0, at_rest, no_zoom)).spectra().size(), 3U);
@@ -27,7 +27,7 @@ TEST(RestingRegion, OfPointsCloseTogetherNoRotationIsMeasured) {
 TEST(RestingRegion, AWideStaticRegionShowsTheCamerasRotation) {
   const PlateView view;
   ChannelDisplacementConfig config = view.config();
-  config.scale_only = true;
+  config.following = CameraFollowing::kDistance;
   config.regions[2].role = RegionRole::kBackground;
   ChannelDisplacement channels(config, view.frame(0.0, at_rest, no_zoom));
   DisplacementSample sample = channels.sample_prototype();

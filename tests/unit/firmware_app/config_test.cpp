@@ -194,6 +194,8 @@ TEST(Config, RefusesBrokenRegions) {
 }
 
 TEST(Config, RefusesBrokenScale) {
+  EXPECT_THAT(refusal_with("known_length_mm: 300", "known_length_mm: 300, only: sometimes"),
+              HasSubstr("true | false | auto"));
   EXPECT_THAT(refusal_with("to: [100, 0]", "to: [0, 0]"), HasSubstr("scale.to"));
   EXPECT_THAT(refusal_with("known_length_mm: 300", "known_length_mm: 0"),
               HasSubstr("scale.known_length_mm: 0 is refused"));

@@ -42,5 +42,39 @@ TEST(CoreConfig, RefusesSpectraThatDoNotFitIntoMemory) {
       AllOf(HasSubstr("spectrum.segment: 512"), HasSubstr("7 channels"), HasSubstr("2.0 GB"), HasSubstr("1.0 GB")));
 }
 
+struct StaticRegion {
+  AppConfig config;
+  core::CameraInfo camera;
+
+  explicit StaticRegion(bool calibrated) {
+    camera.width_px = 640;
+    camera.height_px = 480;
+    camera.rate_hz = 25.0;
+    config.regions.resize(2);
+    config.regions[1].role = core::RegionRole::kBackground;
+    if (calibrated) config.calibration.fx = config.calibration.fy = 700.0;
+  }
+  [[nodiscard]] std::string words(core::CameraFollowing following) {
+    config.scale.following = following;
+    return corrections(config, camera).at(0);
+  }
+};
+
+TEST(CoreConfig, SaysWhichPartOfTheCamerasMotionIsRemoved) {
+  using core::CameraFollowing;
+  StaticRegion known(true), unknown(false);
+  EXPECT_EQ(AppConfig().scale.following, CameraFollowing::kSlow);
+  EXPECT_THAT(known.words(CameraFollowing::kSlow), HasSubstr("slower than 1 Hz"));
+  EXPECT_THAT(known.words(CameraFollowing::kDistance), AllOf(HasSubstr("scale per frame"), HasSubstr("coherent")));
+  EXPECT_THAT(known.words(CameraFollowing::kWhole), HasSubstr("yaw and pitch from the background"));
+  EXPECT_EQ(unknown.words(CameraFollowing::kSlow), known.words(CameraFollowing::kDistance));
+  EXPECT_THAT(unknown.words(CameraFollowing::kWhole), HasSubstr("no focal length is known"));
+  known.config.camera.attitude_file = "attitude.csv";
+  EXPECT_THAT(known.words(CameraFollowing::kSlow), HasSubstr("yaw and pitch from the background"));
+  known.config.camera.attitude_file.clear();
+  known.config.spectrum.witness = false;
+  EXPECT_EQ(known.words(CameraFollowing::kSlow), known.words(CameraFollowing::kDistance));
+}
+
 }  // namespace
 }  // namespace app

@@ -1,0 +1,97 @@
+// Which part of the camera's motion is removed, and which a static region witnesses.
+#include "core/geometry/camera_following.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/geometry/resting_region.h"
+#include "core/geometry/slow_rotation.h"
+#include "tests/support/plate_tracks.h"
+
+namespace core {
+namespace {
+
+using test_support::PlateView;
+
+double no_zoom(double) { return 1.0; }
+
+// All plates move with the camera: 20 mm slowly, 1 mm at 6 Hz. Its shift is followed as a rotation, which fits within 1
+// %.
+double shaken_sway(std::size_t, double t) {
+  return 20.0 * std::sin(2.0 * std::numbers::pi * 0.1 * t) + std::sin(2.0 * std::numbers::pi * 6.0 * t);
+}
+
+TEST(CameraFollowing, RemovesSlowCameraMotionAndLeavesTheFastToItsWitness) {
+  const PlateView view;
+  ChannelDisplacementConfig config = view.config();
+  config.following = CameraFollowing::kSlow;
+  config.regions[2].role = RegionRole::kGround;
+  ChannelDisplacement channels(config, view.frame(0.0, shaken_sway, no_zoom));
+  DisplacementSample sample = channels.sample_prototype();
+  ASSERT_EQ(channels.n_witnesses(), 2U);
+  double largest_mm = 0.0;
+  for (int k = 1; k < 500; ++k) {
+    TrackFrame tracks = view.frame(k / view.rate_hz, shaken_sway, no_zoom);
+    channels.update(tracks, sample);
+    ASSERT_EQ(sample.witness_seen[0], 1);
+    EXPECT_NEAR(sample.value_mm[0], sample.witness_mm[0], 1.0) << k;
+    largest_mm = std::max(largest_mm, std::abs(sample.value_mm[0]));
+  }
+  EXPECT_GT(largest_mm, 0.8);  // the vibration
+  EXPECT_LT(largest_mm, 6.0);  // a fifth of the slow motion, which causal filters leave, and the vibration
+}
+
+TEST(CameraFollowing, WithoutAWitnessTheDistanceAloneIsRemoved) {
+  const PlateView view;
+  ChannelDisplacementConfig config = view.config();
+  config.witness = false;
+  config.regions[2].role = RegionRole::kGround;
+  const TrackFrame keyframe = view.frame(0.0, shaken_sway, no_zoom);
+  config.following = CameraFollowing::kDistance;
+  ChannelDisplacement distance(config, keyframe);
+  config.following = CameraFollowing::kSlow;
+  ChannelDisplacement slow(config, keyframe);
+  DisplacementSample of_distance = distance.sample_prototype(), of_slow = of_distance;
+  for (int k = 1; k < 50; ++k) {
+    TrackFrame tracks = view.frame(k / view.rate_hz, shaken_sway, no_zoom);
+    distance.update(tracks, of_distance);
+    slow.update(tracks, of_slow);
+    EXPECT_EQ(of_slow.value_mm, of_distance.value_mm) << k;
+  }
+}
+
+// The camera turns by 5 degrees and stays there: a point is seen where it was, to a hundredth of a pixel.
+TEST(SlowRotation, EndsAtTheRotationThatAStaticRegionShows) {
+  constexpr double kFocal_px = 1000.0;
+  const std::vector<Vector2> region{{-320.0, 150.0}, {-180.0, 150.0}, {-320.0, 250.0}, {-180.0, 250.0}};
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.6, -0.7, 0.4).normalized();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(5.0 * std::numbers::pi / 180.0, axis).toRotationMatrix();
+  const auto seen = [&](const Vector2& p) {
+    const Eigen::Vector3d ray = turn * Eigen::Vector3d(p.u / kFocal_px, p.v / kFocal_px, 1.0);
+    return Vector2{kFocal_px * ray.x() / ray.z(), kFocal_px * ray.y() / ray.z()};
+  };
+  SlowRotation rotation(kFocal_px, kFocal_px, {-250.0, 200.0});
+  std::vector<Vector2> motion(region.size());
+  std::vector<std::uint8_t> is_seen(region.size(), 1), is_inlier(region.size(), 1);
+  for (int k = 0; k < 200; ++k) {
+    std::vector<Vector2> now;
+    for (const Vector2& p : region) now.push_back(rotation.undone(seen(p)));
+    const double turn_rad = follow_resting_region({now, region, is_seen}, 0.3, motion, is_inlier);
+    RestingMotion left{{0.0, 0.0}, turn_rad};
+    for (const Vector2& m : motion) left.moved_px.u += m.u / 4.0, left.moved_px.v += m.v / 4.0;
+    rotation.add(left, 0.04);
+  }
+  EXPECT_NEAR((rotation.rotation_rad() - 5.0 * std::numbers::pi / 180.0 * axis).norm(), 0.0, 1e-5);
+  const Vector2 corner = rotation.undone(seen({600.0, -400.0}));
+  EXPECT_NEAR(corner.u, 600.0, 0.01);
+  EXPECT_NEAR(corner.v, -400.0, 0.01);
+}
+
+}  // namespace
+}  // namespace core
