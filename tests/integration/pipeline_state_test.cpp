@@ -73,7 +73,8 @@ TEST_F(PipelineState, DisplacementsAreMeasuredFromTheSameKeyframeAsBefore) {
   EXPECT_FALSE(fs::exists(keyframe)) << "it ended by itself: the next run is another one";
   constexpr std::size_t kRoof = tests::kChannels - 2;
   double largest = 0.0;
-  for (std::uint64_t k = 345; k < 400; ++k) {
+  // The slow rotation of the camera starts anew at frame 335, with two poles at 1 Hz.
+  for (std::uint64_t k = 360; k < 400; ++k) {
     const double expected = value_at(*whole.heard, k, kRoof);
     EXPECT_NEAR(value_at(*rig.heard, k, kRoof), expected, 1.0) << k;
     largest = std::max(largest, std::abs(expected));
