@@ -7,8 +7,8 @@ namespace core {
 // What is removed from the points of the camera's motion.
 enum class CameraFollowing : std::uint8_t {
   kDistance,  // its distance alone (paper, Eq. 6); a static region witnesses the rest
-  kSlow,      // and its slow rotation (slow_rotation.h), where a static region shows it and a focal length is known; the
-              // region witnesses what is left. With a measured attitude: as kWhole
+  kSlow,  // and its slow rotation (slow_rotation.h), where a static region shows it and a focal length is known; the
+          // region witnesses what is left. With a measured attitude: as kWhole
   kWhole,
 };
 

@@ -49,7 +49,8 @@ struct ChannelDisplacementConfig {
 // (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. Static regions (background, ground) are not channels. Unless
 // the whole motion of the camera is followed, the static region with the most points, without its own zoom, is a
 // witness of what stays of the camera's translation along each direction of the channels and, if its points spread far
-// enough, of its rotation about the optical axis. Unobservable camera motion (sideways translation if only the
+// enough, of its rotation about the optical axis; the slow part of its rotation is removed first, if `following` says
+// so. Unobservable camera motion (sideways translation if only the
 // structure is seen) remains in all channels alike; sigma_mm does not contain it. One thread; does not allocate after
 // construction.
 class ChannelDisplacement {

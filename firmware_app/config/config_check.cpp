@@ -80,8 +80,8 @@ class Checker {
     if (value.empty()) return;
     if (!config_.camera.attitude_file.empty() && !config_.camera.attitude_channel.empty())
       refuse("camera.attitude_channel", config_.camera.attitude_channel, "a file or a channel, not both", "remove one");
-    if (config_.scale.following == core::CameraFollowing::kDistance || !config_.scale.adaptive ||
-        config_.method == Method::kPaper)
+    const bool is_distance_only = config_.scale.following == core::CameraFollowing::kDistance;
+    if (is_distance_only || !config_.scale.adaptive || config_.method == Method::kPaper)
       refuse(key, value, "if the camera's rotation is estimated",
              "remove `scale: {only: true}`, `scale: {adaptive: false}` or `method: paper`");
     if (config_.calibration.file.empty() && !(config_.calibration.fx > 0.0))

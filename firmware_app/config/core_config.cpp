@@ -55,9 +55,8 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
   const bool is_slow = config.scale.following == core::CameraFollowing::kSlow && !told;
   if (is_slow && witnessed && shown) {
     return fmt::format(
-        "camera rotation slower than {:g} Hz, from a static region; {}; what is left of that region's motion is taken "
-        "out "
-        "of the modes",
+        "camera rotation slower than {:g} Hz, from a static region; {}; what that region still shows is taken out of "
+        "the modes",
         core::SlowRotation::kSlow_hz, scale);
   }
   if (is_slow || config.scale.following == core::CameraFollowing::kDistance) {
