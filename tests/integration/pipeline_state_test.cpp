@@ -19,11 +19,11 @@ using tests::Rig;
 
 class PipelineState : public ::testing::Test {
  protected:
-  std::vector<std::string> overrides(const std::string& more = "identification.min_mpc=0.8") const {
+  [[nodiscard]] std::vector<std::string> overrides(const std::string& more = "identification.min_mpc=0.8") const {
     return {"spectrum.segment=64", "state.period_s=2", "state.directory=" + folder.string(), more};
   }
   // Ends with a fault after 300 frames at 25 per second: its state is kept.
-  app::Pipeline::Outcome cut_off() const {
+  [[nodiscard]] app::Pipeline::Outcome cut_off() const {
     CameraScript script = frames(400);
     script.fault_at = 300;
     script.silent_before = 240, script.n_timeouts = 60;  // 0.3 s, in which an estimate is finished on a busy computer
@@ -88,7 +88,8 @@ TEST_F(PipelineState, AnotherViewIsSeededAnewAndTheReasonTold) {
   ASSERT_GT(bytes.size(), 480U * 270U);
   // The same points, in an image of another scene; hash, number, time, width and height and a count come before it.
   drivers::CheckpointRead read = drivers::read_checkpoint(keyframe.string());
-  for (std::size_t i = 0; i < 480U * 270U; ++i) read.bytes[40 + i] = static_cast<std::uint8_t>((i * i / 7) & 0xFFU);
+  constexpr std::size_t kPixels = std::size_t{480} * 270;
+  for (std::size_t i = 0; i < kPixels; ++i) read.bytes[40 + i] = static_cast<std::uint8_t>((i * i / 7) & 0xFFU);
   ASSERT_EQ(drivers::write_checkpoint(keyframe.string(), read.bytes), "");
   Rig rig(frames(200), overrides());
   const auto after = rig.run();

@@ -81,6 +81,7 @@ TEST(SlowRotation, EndsAtTheRotationThatAStaticRegionShows) {
   std::vector<std::uint8_t> is_seen(region.size(), 1), is_inlier(region.size(), 1);
   for (int k = 0; k < 200; ++k) {
     std::vector<Vector2> now;
+    now.reserve(region.size());
     for (const Vector2& p : region) now.push_back(rotation.undone(seen(p)));
     const double turn_rad = follow_resting_region({now, region, is_seen}, 0.3, motion, is_inlier);
     RestingMotion left{{0.0, 0.0}, turn_rad};
