@@ -247,7 +247,7 @@ TEST(Config, RefusesWhatIsNoPlainYaml) {
   EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("a.yaml:1"));
   EXPECT_THAT(refusal("a: [1\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal("camera:\n\tsource: x\n"), AllOf(HasSubstr("a.yaml:2"), HasSubstr("tab")));
-  EXPECT_THAT(refusal(std::string("camera:\n  source: a\0b", 22)), AllOf(HasSubstr("a.yaml:2"), HasSubstr("0x00")));
+  EXPECT_THAT(refusal(std::string("camera:\n  source: a\0b", 21)), AllOf(HasSubstr("a.yaml:2"), HasSubstr("0x00")));
   EXPECT_THAT(refusal("\x7f"
                       "ELF\x02\x01"),
               HasSubstr("binary"));
