@@ -65,4 +65,17 @@ struct PlateView {
   }
 };
 
+// The channels of a run, frame by frame.
+struct Measured {
+  core::ChannelDisplacement channels;
+  core::DisplacementSample sample;
+
+  Measured(const core::ChannelDisplacementConfig& config, const core::TrackFrame& keyframe)
+      : channels(config, keyframe), sample(channels.sample_prototype()) {}
+  const core::DisplacementSample& operator()(core::TrackFrame& tracks) {
+    channels.update(tracks, sample);
+    return sample;
+  }
+};
+
 }  // namespace test_support

@@ -17,6 +17,7 @@
 namespace core {
 namespace {
 
+using test_support::Measured;
 using test_support::PlateView;
 
 double no_zoom(double) { return 1.0; }
@@ -32,13 +33,12 @@ TEST(CameraFollowing, RemovesSlowCameraMotionAndLeavesTheFastToItsWitness) {
   ChannelDisplacementConfig config = view.config();
   config.following = CameraFollowing::kSlow;
   config.regions[2].role = RegionRole::kGround;
-  ChannelDisplacement channels(config, view.frame(0.0, shaken_sway, no_zoom));
-  DisplacementSample sample = channels.sample_prototype();
-  ASSERT_EQ(channels.n_witnesses(), 2U);
+  Measured measure(config, view.frame(0.0, shaken_sway, no_zoom));
+  ASSERT_EQ(measure.channels.n_witnesses(), 2U);
   double largest_mm = 0.0;
   for (int k = 1; k < 500; ++k) {
     TrackFrame tracks = view.frame(k / view.rate_hz, shaken_sway, no_zoom);
-    channels.update(tracks, sample);
+    const DisplacementSample& sample = measure(tracks);
     ASSERT_EQ(sample.witness_seen[0], 1);
     EXPECT_NEAR(sample.value_mm[0], sample.witness_mm[0], 1.0) << k;
     largest_mm = std::max(largest_mm, std::abs(sample.value_mm[0]));
@@ -54,15 +54,12 @@ TEST(CameraFollowing, WithoutAWitnessTheDistanceAloneIsRemoved) {
   config.regions[2].role = RegionRole::kGround;
   const TrackFrame keyframe = view.frame(0.0, shaken_sway, no_zoom);
   config.following = CameraFollowing::kDistance;
-  ChannelDisplacement distance(config, keyframe);
+  Measured distance(config, keyframe);
   config.following = CameraFollowing::kSlow;
-  ChannelDisplacement slow(config, keyframe);
-  DisplacementSample of_distance = distance.sample_prototype(), of_slow = of_distance;
+  Measured slow(config, keyframe);
   for (int k = 1; k < 50; ++k) {
     TrackFrame tracks = view.frame(k / view.rate_hz, shaken_sway, no_zoom);
-    distance.update(tracks, of_distance);
-    slow.update(tracks, of_slow);
-    EXPECT_EQ(of_slow.value_mm, of_distance.value_mm) << k;
+    EXPECT_EQ(slow(tracks).value_mm, distance(tracks).value_mm) << k;
   }
 }
 

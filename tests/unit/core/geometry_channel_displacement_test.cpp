@@ -13,6 +13,7 @@
 namespace core {
 namespace {
 
+using test_support::Measured;
 using test_support::PlateView;
 
 double at_rest(std::size_t, double) { return 0.0; }
@@ -22,18 +23,6 @@ double sway(std::size_t r, double t) {
          (std::cos(2.0 * std::numbers::pi * 1.7 * t + static_cast<double>(r)) - std::cos(static_cast<double>(r)));
 }
 double drift(double t) { return 1.0 + 0.02 * std::sin(2.0 * std::numbers::pi * 0.2 * t); }
-
-struct Measured {
-  ChannelDisplacement channels;
-  DisplacementSample sample;
-
-  Measured(const ChannelDisplacementConfig& config, const TrackFrame& keyframe)
-      : channels(config, keyframe), sample(channels.sample_prototype()) {}
-  const DisplacementSample& operator()(TrackFrame& tracks) {
-    channels.update(tracks, sample);
-    return sample;
-  }
-};
 
 // Smooth camera motion is followed to a small fraction of a channel's stated 0.02 mm, not exactly.
 TEST(ChannelDisplacement, MeasuresEachPlateUnderMotionAndZoom) {

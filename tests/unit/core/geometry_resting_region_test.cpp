@@ -10,6 +10,7 @@
 namespace core {
 namespace {
 
+using test_support::Measured;
 using test_support::PlateView;
 
 double at_rest(std::size_t, double) { return 0.0; }
@@ -29,10 +30,9 @@ TEST(RestingRegion, AWideStaticRegionShowsTheCamerasRotation) {
   ChannelDisplacementConfig config = view.config();
   config.following = CameraFollowing::kDistance;
   config.regions[2].role = RegionRole::kBackground;
-  ChannelDisplacement channels(config, view.frame(0.0, at_rest, no_zoom));
-  DisplacementSample sample = channels.sample_prototype();
-  ASSERT_EQ(channels.spectra().size(), 4U);
-  EXPECT_TRUE(witnesses_turn(channels.spectra()[3]));
+  Measured measure(config, view.frame(0.0, at_rest, no_zoom));
+  ASSERT_EQ(measure.channels.spectra().size(), 4U);
+  EXPECT_TRUE(witnesses_turn(measure.channels.spectra()[3]));
   for (const double turn_rad : {0.0, 0.002, -0.03}) {
     TrackFrame tracks = view.frame(0.1, at_rest, no_zoom);
     for (TrackPoint& p : tracks.points) {  // about the optical axis
@@ -40,7 +40,7 @@ TEST(RestingRegion, AWideStaticRegionShowsTheCamerasRotation) {
       p.u_px = view.camera.cx + std::cos(turn_rad) * u - std::sin(turn_rad) * v;
       p.v_px = view.camera.cy + std::sin(turn_rad) * u + std::cos(turn_rad) * v;
     }
-    channels.update(tracks, sample);
+    const DisplacementSample& sample = measure(tracks);
     ASSERT_EQ(sample.witness_mm.size(), 2U);
     EXPECT_EQ(sample.witness_seen[1], 1);
     EXPECT_NEAR(sample.witness_mm[1], config.scale_mm_per_px * 0.5 * config.readout.height_px * std::sin(turn_rad),
