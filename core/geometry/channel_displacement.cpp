@@ -20,9 +20,6 @@ constexpr double kLeastSigmaPx = 0.003;
 // Spread of a static region's points in heights of the image from which on it witnesses the camera's rotation.
 constexpr double kLeastSpread = 0.1;
 
-// Consecutive frames that contradict the estimated camera motion, after which it is given up.
-constexpr int kMostContradictedFrames = 50;
-
 // The keyframe as the declared camera, without corrections, would have seen it.
 TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame& keyframe) {
   TrackFrame out = keyframe;
@@ -65,7 +62,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     readout_share_.push_back(config_.readout.fraction(raw.u_px, raw.v_px));
   }
   position_ = motion_ = keyframe_;
-  if (config_.following == CameraFollowing::kSlow && config_.attitude) config_.following = CameraFollowing::kWhole;
+  config_.following = following_with(config_.following, config_.attitude.has_value());
   share_now_ = readout_share_;
   sigma_px_.assign(n, 0.0);
   seen_.assign(n, 0);
@@ -149,7 +146,7 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
     Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
     if (corrects_places_) ideal = config_.places.corrected(ideal);
     position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
-    if (slow_rotation_) position_[i] = slow_rotation_->undone(position_[i]);
+    if (slow_rotation_) position_[i] = slow_rotation_->undone(position_[i], keyframe_[i]);
     share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
     const bool stated = std::isfinite(point.sigma_px) && point.sigma_px >= 0.0;
     sigma_px_[i] = stated ? point.sigma_px : 1.0 / std::sqrt(weight_[i]);
@@ -213,10 +210,18 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   }
   if (camera_motion_->settle()) stabilise();
   if (attitude_) attitude_->after(*camera_motion_);
-  // A reference region that is not static, or a view outside the model: most points contradict the motion for long.
-  n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
-  if (n_contradicted_ > kMostContradictedFrames) camera_given_up_ = true;
+  contradiction_.add(4 * count(inlier_) < count(seen_), largest_resting_px());
   return camera_motion_->magnification();
+}
+
+double ChannelDisplacement::largest_resting_px() const noexcept {
+  double largest = 0.0;
+  for (std::uint16_t r = 0; r < ranges_.size(); ++r) {
+    if (makes_channel(config_.regions[r].role)) continue;
+    const Average left = average(r);
+    if (left.enough) largest = std::max(largest, std::hypot(left.mean_px.u, left.mean_px.v));
+  }
+  return largest;
 }
 
 double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
@@ -224,20 +229,22 @@ double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
                                                         : config_.scale_mm_per_px;
 }
 
-ChannelDisplacement::Average ChannelDisplacement::average(std::uint16_t region, const Vector2& along) const noexcept {
+ChannelDisplacement::Average ChannelDisplacement::average(std::uint16_t region) const noexcept {
   const RegionRange& range = ranges_[region];
-  double sum = 0.0, weight = 0.0, variance = 0.0;
+  double weight = 0.0, variance = 0.0;
+  Vector2 sum;
   Average out;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (inlier_[i] == 0) continue;
-    sum += weight_[i] * (motion_[i].u * along.u + motion_[i].v * along.v);
+    sum.u += weight_[i] * motion_[i].u;
+    sum.v += weight_[i] * motion_[i].v;
     weight += weight_[i];
     variance += weight_[i] * weight_[i] * sigma_px_[i] * sigma_px_[i];
     ++out.n_points;
   }
   if (!(weight > 0.0)) return out;
   out.enough = out.n_points >= config_.min_points;
-  out.mean_px = sum / weight;
+  out.mean_px = {sum.u / weight, sum.v / weight};
   out.sigma_px = std::sqrt(variance) / weight;
   return out;
 }
@@ -245,13 +252,13 @@ ChannelDisplacement::Average ChannelDisplacement::average(std::uint16_t region, 
 void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
                                           DisplacementSample& out) const noexcept {
   const ChannelInfo& info = channels_[channel];
-  const Average mean = average(info.region, {info.direction_u, info.direction_v});
+  const Average mean = average(info.region);
   const double s0 = scale_of(info.region);
   const double camera_px =
       follows_camera() ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) : 0.0;
   out.seen[channel] = mean.enough ? 1 : 0;
   out.n_points[channel] = mean.n_points;
-  out.value_mm[channel] = mean.enough ? s0 * mean.mean_px : 0.0;
+  out.value_mm[channel] = mean.enough ? s0 * mean.along(info) : 0.0;
   out.sigma_mm[channel] = mean.enough ? s0 * std::hypot(mean.sigma_px, camera_px) / magnification : 0.0;
 }
 
@@ -261,19 +268,18 @@ void ChannelDisplacement::follow_what_rests(DisplacementSample& out) noexcept {
   const std::uint16_t region = spectra_.back().region;
   const double turn_rad = follow_resting_region({resting(position_), resting(keyframe_), resting(seen_)},
                                                 config_.inlier_sigma_px, resting(motion_), resting(inlier_));
+  const Average mean = average(region);
   for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
     const ChannelInfo& witness = spectra_[channels_.size() + w];
-    const Average mean = average(region, {witness.direction_u, witness.direction_v});
-    const double moved_px = witnesses_turn(witness) ? 0.5 * config_.readout.height_px * turn_rad : mean.mean_px;
+    const double moved_px = witnesses_turn(witness) ? 0.5 * config_.readout.height_px * turn_rad : mean.along(witness);
     out.witness_mm[w] = mean.enough ? config_.scale_mm_per_px * moved_px : 0.0;
     out.witness_seen[w] = mean.enough ? 1 : 0;
   }
   if (!slow_rotation_) return;
-  const Average right = average(region, {1.0, 0.0}), down = average(region, {0.0, 1.0});
   const double dt_s = 1e-9 * static_cast<double>(out.t_start_ns - t_turned_ns_);
-  if (!right.enough || !(dt_s > 0.0)) return;
+  if (!mean.enough || !(dt_s > 0.0)) return;
   const bool shows_turn = witnesses_turn(spectra_.back());
-  slow_rotation_->add({{right.mean_px, down.mean_px}, shows_turn ? turn_rad : 0.0}, dt_s);
+  slow_rotation_->add({mean.mean_px, shows_turn ? turn_rad : 0.0}, dt_s);
   t_turned_ns_ = out.t_start_ns;
 }
 

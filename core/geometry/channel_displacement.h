@@ -9,6 +9,7 @@
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
 #include "core/geometry/channel_layout.h"
+#include "core/geometry/motion_contradiction.h"
 #include "core/geometry/plane_pose.h"
 #include "core/geometry/point_correction.h"
 #include "core/geometry/published_shutter.h"
@@ -70,9 +71,9 @@ class ChannelDisplacement {
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
   [[nodiscard]] DisplacementSample sample_prototype() const;
 
-  // True after most points contradicted the camera motion for two seconds or more (a region declared static moves):
-  // since then only the scale has been estimated.
-  [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_; }
+  // True after the points contradicted the camera motion for long (motion_contradiction.h): since then only the scale
+  // has been estimated.
+  [[nodiscard]] bool camera_given_up() const noexcept { return contradiction_.lasts(); }
   // Adds a new attitude sample, before the frames at its time; ignored without config.attitude.
   void take(const AttitudeSample& sample) noexcept {
     if (attitude_) attitude_->take(sample);
@@ -85,7 +86,7 @@ class ChannelDisplacement {
   }
 
  private:
-  [[nodiscard]] bool follows_camera() const noexcept { return camera_motion_ && !camera_given_up_; }
+  [[nodiscard]] bool follows_camera() const noexcept { return camera_motion_ && !camera_given_up(); }
   struct RegionRange {
     std::size_t begin = 0, end = 0;  // range of its points
     [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
@@ -96,19 +97,25 @@ class ChannelDisplacement {
   void follow_what_rests(DisplacementSample& out) noexcept;
   void place_points(const TrackFrame& tracks) noexcept;
   [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
+  // Largest mean motion of a static region, after removal of the camera's.
+  [[nodiscard]] double largest_resting_px() const noexcept;
   [[nodiscard]] double estimate_scale() noexcept;
   void stabilise() noexcept;
   void reject_outliers() noexcept;
   [[nodiscard]] PublishedShutter make_published_shutter() const;
   [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
   void remove_scale(double magnification) noexcept;
-  // Weighted mean of a region's inliers along an axis.
+  // Weighted mean of a region's inliers; the same sigma along every axis.
   struct Average {
-    double mean_px = 0.0, sigma_px = 0.0;
+    Vector2 mean_px;
+    double sigma_px = 0.0;
     std::uint16_t n_points = 0;
     bool enough = false;
+    [[nodiscard]] double along(const ChannelInfo& channel) const noexcept {
+      return mean_px.u * channel.direction_u + mean_px.v * channel.direction_v;
+    }
   };
-  [[nodiscard]] Average average(std::uint16_t region, const Vector2& along) const noexcept;
+  [[nodiscard]] Average average(std::uint16_t region) const noexcept;
   // Part of a list of points that belongs to the region of the witnesses.
   template <class T>
   [[nodiscard]] std::span<T> resting(std::vector<T>& of_points) const noexcept {
@@ -125,8 +132,7 @@ class ChannelDisplacement {
   std::vector<double> weight_;         // weight of a point in its channel: inverse variance from its texture, constant
   std::vector<double> readout_share_;  // readout fraction of the raw row: rows are read in the order of the sensor
   ScaleFactor scale_;
-  int n_contradicted_ = 0;
-  bool camera_given_up_ = false;
+  MotionContradiction contradiction_;
   std::optional<CameraMotionEstimator> camera_motion_;  // empty: scale only, paper, or a static camera
   std::optional<AttitudePrior> attitude_;
   std::optional<SlowRotation> slow_rotation_;  // removed from position_

@@ -16,9 +16,9 @@ SlowRotation::SlowRotation(double fx, double fy, const Vector2& centre) : fx_(fx
   rotation_of_motion_ = shown.inverse();
 }
 
-Vector2 SlowRotation::undone(const Vector2& position) const noexcept {
-  const Eigen::Vector3d ray = undo_ * Eigen::Vector3d(position.u / fx_, position.v / fy_, 1.0);
-  return {fx_ * ray.x() / ray.z(), fy_ * ray.y() / ray.z()};
+Vector2 SlowRotation::undone(const Vector2& position, const Vector2& keyframe) const noexcept {
+  const Eigen::Vector3d ray = turn_ * Eigen::Vector3d(keyframe.u / fx_, keyframe.v / fy_, 1.0);
+  return {position.u + keyframe.u - fx_ * ray.x() / ray.z(), position.v + keyframe.v - fy_ * ray.y() / ray.z()};
 }
 
 void SlowRotation::add(const RestingMotion& motion, double dt_s) noexcept {
@@ -29,7 +29,7 @@ void SlowRotation::add(const RestingMotion& motion, double dt_s) noexcept {
   pole_[0] += share * (whole - pole_[0]);
   pole_[1] += share * (pole_[0] - pole_[1]);
   const double angle = pole_[1].norm();
-  undo_ = angle > 0.0 ? Eigen::AngleAxisd(-angle, pole_[1] / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
+  turn_ = angle > 0.0 ? Eigen::AngleAxisd(angle, pole_[1] / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
 }
 
 }  // namespace core

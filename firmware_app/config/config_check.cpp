@@ -81,9 +81,10 @@ class Checker {
     if (!config_.camera.attitude_file.empty() && !config_.camera.attitude_channel.empty())
       refuse("camera.attitude_channel", config_.camera.attitude_channel, "a file or a channel, not both", "remove one");
     const bool is_distance_only = config_.scale.following == core::CameraFollowing::kDistance;
-    if (is_distance_only || !config_.scale.adaptive || config_.method == Method::kPaper)
+    if (is_distance_only || !config_.scale.adaptive || config_.method == Method::kPaper) {
       refuse(key, value, "if the camera's rotation is estimated",
              "remove `scale: {only: true}`, `scale: {adaptive: false}` or `method: paper`");
+    }
     if (config_.calibration.file.empty() && !(config_.calibration.fx > 0.0))
       refuse(key, value, "if a focal length is known", "add a calibration, which converts angles to pixels");
     if (config_.camera.attitude_file.empty() && config_.telemetry.lcm_url.empty())

@@ -52,14 +52,15 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
   const bool witnessed = rests && config.spectrum.witness;
   const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
   const bool shown = core::tells_camera_motion(config.regions, camera);
-  const bool is_slow = config.scale.following == core::CameraFollowing::kSlow && !told;
+  const core::CameraFollowing following = core::following_with(config.scale.following, told);
+  const bool is_slow = following == core::CameraFollowing::kSlow;
   if (is_slow && witnessed && shown) {
     return fmt::format(
         "camera rotation slower than {:g} Hz, from a static region; {}; what that region still shows is taken out of "
         "the modes",
         core::SlowRotation::kSlow_hz, scale);
   }
-  if (is_slow || config.scale.following == core::CameraFollowing::kDistance) {
+  if (following != core::CameraFollowing::kWhole) {
     return witnessed
                ? scale + "; the part of a mode shape that is coherent with a static region is removed as camera motion"
                : scale;

@@ -93,8 +93,8 @@ void warn_of_tracking(const TrackingStage& tracking, core::Health& health) {
   }
   if (tracking.camera_given_up()) {
     health.warnings.emplace_back(
-        "most points contradict the estimated camera motion: does a region declared static (role "
-        "background or ground) move? Only the scale is estimated since then");
+        "the points contradict the estimated camera motion: a region declared static (role background or ground) "
+        "moves, or the camera vibrates faster than its motion is followed; only the scale is estimated since then");
   }
   if (const std::uint64_t n = tracking.n_previews_lost(); n > 0) {
     health.warnings.push_back(fmt::format("{} preview images were not sent: newer ones replaced them", n));

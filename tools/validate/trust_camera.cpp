@@ -15,11 +15,9 @@
 namespace tools {
 namespace {
 
-// Ways to follow the camera; what this build's configuration does not know is not tried.
+// Ways to follow the camera.
 std::vector<Way> ways() {
-  std::vector<Way> out{{"true", {"scale.only=true"}}, {"false", {"scale.only=false"}}};
-  if (configuration_knows("true | false | auto")) out.push_back({"auto", {"scale.only=auto"}});
-  return out;
+  return {{"true", {"scale.only=true"}}, {"false", {"scale.only=false"}}, {"auto", {"scale.only=auto"}}};
 }
 
 void print_ways(const std::string& key, const char* camera, const TrustFlight& flight, const AnalysedFlight& result,
