@@ -29,7 +29,8 @@ class SlowRotation {
   // fx, fy: px; centre: of the region in the keyframe, px from the principal point.
   SlowRotation(double fx, double fy, const Vector2& centre);
 
-  // The point without what the rotation does to its place in the keyframe; both undistorted px from the principal point.
+  // The point without what the rotation does to its place in the keyframe; both undistorted px from the principal
+  // point.
   [[nodiscard]] Vector2 undone(const Vector2& position, const Vector2& keyframe) const noexcept;
   void add(const RestingMotion& motion, double dt_s) noexcept;
   [[nodiscard]] const Eigen::Vector3d& rotation_rad() const noexcept { return pole_[1]; }

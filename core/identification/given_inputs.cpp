@@ -38,6 +38,11 @@ void subtract_product(MatrixXd& from, const MatrixXd& a, const MatrixXd& b) {
 
 }  // namespace
 
+int input_margin(const EraConfig& config) noexcept {
+  constexpr int kMargin = 8;
+  return std::min(kMargin, config.block_rows);
+}
+
 GivenInputs given_inputs(const EraConfig& config, int n_channels) {
   const int p = config.block_rows;
   GivenInputs out;
@@ -50,12 +55,12 @@ GivenInputs given_inputs(const EraConfig& config, int n_channels) {
   out.past.channels.insert(out.past.channels.end(), config.inputs.begin(), config.inputs.end());
   out.past.first = -config.first_lag, out.past.n = p, out.past.step = -1;
   out.input.channels = config.inputs;
-  out.input.first = -kInputMargin, out.input.n = p + 1 + 2 * kInputMargin;
+  out.input.first = -input_margin(config), out.input.n = p + 1 + 2 * input_margin(config);
   return out;
 }
 
 int furthest_lag(const EraConfig& config) noexcept {
-  return 2 * config.block_rows + config.first_lag + (config.inputs.empty() ? 0 : kInputMargin);
+  return 2 * config.block_rows + config.first_lag + (config.inputs.empty() ? 0 : input_margin(config));
 }
 
 bool condition_on_inputs(const Correlations& correlations, const EraConfig& config, const Eigen::VectorXd& scale,

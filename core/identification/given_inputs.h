@@ -9,8 +9,9 @@ namespace core {
 
 // Samples about the present, 0, of a realisation whose inputs are measured (EraConfig::inputs). The outputs' future has
 // one block row more than H0, because H1 is the same matrix without its first. The inputs' future is longer by
-// kInputMargin samples at either end: a rolling shutter reads a base earlier or later than the structure.
-inline constexpr int kInputMargin = 2;
+// input_margin() samples at either end: a rolling shutter reads a base earlier or later than the structure, and the
+// motion between two samples, which folded modes follow, shows in the samples on both sides.
+[[nodiscard]] int input_margin(const EraConfig& config) noexcept;  // <= block rows
 
 struct GivenInputs {
   SampleWindow future, past, input;

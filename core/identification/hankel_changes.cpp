@@ -59,7 +59,7 @@ DeviationLags hankel_change_lags(const EraConfig& config, int n_differences) {
   const int p = config.block_rows;
   if (config.inputs.empty()) return {config.first_lag, 2 * p, n_differences};
   // From the inputs' first sample after its own last one to the outputs' last one after the past's first.
-  const int first = -(p + 2 * kInputMargin);
+  const int first = -(p + 2 * input_margin(config));
   return {first, furthest_lag(config) - first, n_differences};
 }
 
@@ -90,7 +90,7 @@ HankelChanges hankel_changes(const Realisation& realisation, const EraConfig& co
   const GivenInputs samples = given_inputs(config, static_cast<int>(realisation.scale.size()));
   const bool given = !config.inputs.empty();
   const MatrixXd row = row_directions(realisation, config, directions).value;
-  const Index margin = given ? kInputMargin : 0, n_columns = deviations.n_blocks * directions.cols();
+  const Index margin = given ? input_margin(config) : 0, n_columns = deviations.n_blocks * directions.cols();
   HankelChanges out;
   out.outputs.resize(samples.future.size(), n_columns);
   out.inputs.resize(given ? samples.input.size() : 0, n_columns);
