@@ -216,9 +216,9 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
 
 double ChannelDisplacement::largest_resting_px() const noexcept {
   double largest = 0.0;
-  for (std::uint16_t r = 0; r < ranges_.size(); ++r) {
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
     if (makes_channel(config_.regions[r].role)) continue;
-    const Average left = average(r);
+    const Average left = average(static_cast<std::uint16_t>(r));
     if (left.enough) largest = std::max(largest, std::hypot(left.mean_px.u, left.mean_px.v));
   }
   return largest;
