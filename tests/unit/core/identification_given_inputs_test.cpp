@@ -71,9 +71,10 @@ TEST(GivenInputs, WithoutThemTheOscillationOfTheInputIsAPole) {
 }
 
 // As PoleChanges.AreTheDerivativeOfARefit, for the conditioned Hankel matrix.
-TEST(GivenInputs, ChangesAreTheDerivativeOfARefit) {
+void expect_changes_to_be_derivatives(int block_rows) {
   const DrivenSystem driven(5, kModes, kOutputs), other(6, kModes, kOutputs);
-  const EraConfig config = given_channel_0();
+  EraConfig config = given_channel_0();
+  config.block_rows = block_rows;
   const Correlations r = driven.correlations(60), s = other.correlations(60);
   Realisation at, moved;
   ASSERT_EQ(realise(r, config, at), EraStatus::kOk);
@@ -110,6 +111,16 @@ TEST(GivenInputs, ChangesAreTheDerivativeOfARefit) {
       EXPECT_NEAR(std::abs(stated - ratio_slope), 0.0, 2e-2 * (1.0 + std::abs(ratio_slope))) << c;
     }
   }
+}
+
+TEST(GivenInputs, ChangesAreTheDerivativeOfARefit) { expect_changes_to_be_derivatives(12); }
+
+// The window of the inputs is then as long before the present as the past.
+TEST(GivenInputs, ChangesAreTheDerivativeOfARefitWithAShortMemory) {
+  EraConfig config = given_channel_0();
+  config.block_rows = 4;
+  EXPECT_EQ(input_margin(config), 4);
+  expect_changes_to_be_derivatives(4);
 }
 
 // Base, two floors and a region at rest, of white noise. The base moves until `until` of the record; the region follows
