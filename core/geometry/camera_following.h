@@ -12,7 +12,7 @@ enum class CameraFollowing : std::uint8_t {
   kWhole,
 };
 
-// A measured attitude tells the whole rotation, not the slow part alone.
+// A measured attitude is the whole rotation, not the slow part alone.
 [[nodiscard]] constexpr CameraFollowing following_with(CameraFollowing asked, bool has_attitude) noexcept {
   return asked == CameraFollowing::kSlow && has_attitude ? CameraFollowing::kWhole : asked;
 }

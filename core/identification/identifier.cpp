@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/identification/camera_leakage.h"
+#include "core/identification/camera_lines.h"
 #include "core/identification/chance_poles.h"
 #include "core/identification/combination_lines.h"
 #include "core/identification/field_shapes.h"
@@ -174,13 +175,16 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   if (lines.empty()) {
     identify_modes(sums, records, field, estimate);
     if (subtracts) identify_shared(sums, records, estimate);
-    return estimate;
+  } else {
+    const CpsdSums steadied = without_lines(sums, lines);
+    identify_modes(steadied, records, field, estimate);
+    identify_shared(steadied, records, estimate);
   }
-  const CpsdSums steadied = without_lines(sums, lines);
-  identify_modes(steadied, records, field, estimate);
-  identify_shared(steadied, records, estimate);
-  for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding_config(sums.rate_hz)))
+  if (!subtracts) return estimate;
+  const FoldingConfig folding = folding_config(sums.rate_hz);
+  for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding))
     estimate.rejected.push_back(std::move(line));
+  list_camera_lines(sums, delays_as_undone(), folding, estimate);
   return estimate;
 }
 

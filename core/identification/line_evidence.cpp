@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/camera_shape.h"
 #include "core/identification/stabilisation.h"
 #include "core/types/constants.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Range of rotor and blade frequencies; the exposure averages out faster vibration.
-constexpr double kFastestCamera_hz = 250.0;
 // Above this similarity of the delays' phasors, removing the delays of two frequencies gives nearly the same shape.
 constexpr double kMostAlike = 0.8;
 
@@ -28,39 +27,11 @@ constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
 constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2, kLeastRenewals = 10.0;
 constexpr int kDifferences = 1;  // suppresses the hover drift
 
-std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
-                                   const std::vector<double>& delay_s) {
-  std::vector<Complex> shape(observed.size());
-  for (std::size_t c = 0; c < shape.size(); ++c) {
-    shape[c] = observed[c] * std::polar(1.0, -kTwoPi * frequency_hz * delay_s[c]);
-  }
-  return shape;
-}
-
 // Similarity of the phases that two frequencies this far apart cause in the channels, 0..1.
 double likeness(double apart_hz, const std::vector<double>& delay_s) {
   Complex sum = 0.0;
   for (const double delay : delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
   return std::abs(sum) / static_cast<double>(delay_s.size());
-}
-
-// Share of a shape's square explained by a constant and a slope over the delays (complex least squares, made orthogonal
-// by centring).
-double explained_by_slope(const std::vector<Complex>& shape, const std::vector<double>& delay_s) {
-  const double n = static_cast<double>(shape.size());
-  double mean_delay = 0.0;
-  for (const double delay : delay_s) mean_delay += delay / n;
-  Complex constant = 0.0, slope = 0.0;
-  double slopes = 0.0, whole = 0.0;
-  for (std::size_t c = 0; c < shape.size(); ++c) {
-    const double x = delay_s[c] - mean_delay;
-    constant += shape[c];
-    slope += x * shape[c];
-    slopes += x * x;
-    whole += std::norm(shape[c]);
-  }
-  if (!(whole > 0.0 && slopes > 0.0)) return 0.0;
-  return (std::norm(constant) / n + std::norm(slope) / slopes) / whole;
 }
 
 }  // namespace
@@ -80,7 +51,7 @@ void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double 
   for (int n = -reach; n <= reach; ++n) {
     const double f = apparent_hz + n * rate_hz;
     if (std::abs(f) <= limit_hz || std::abs(f) > kFastestCamera_hz || near_a_mode(f)) continue;
-    const double share = explained_by_slope(delays_undone(observed, f, folding_.delay_s), folding_.delay_s);
+    const double share = camera_share(observed, f, folding_.delay_s);
     if (share > out.camera_mac) out.camera_mac = share, out.camera_hz = std::abs(f);
   }
 }

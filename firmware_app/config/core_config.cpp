@@ -53,8 +53,7 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
   const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
   const bool shown = core::tells_camera_motion(config.regions, camera);
   const core::CameraFollowing following = core::following_with(config.scale.following, told);
-  const bool is_slow = following == core::CameraFollowing::kSlow;
-  if (is_slow && witnessed && shown) {
+  if (following == core::CameraFollowing::kSlow && witnessed && shown) {
     return fmt::format(
         "camera rotation slower than {:g} Hz, from a static region; {}; what that region still shows is taken out of "
         "the modes",

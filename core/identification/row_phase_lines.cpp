@@ -1,0 +1,261 @@
+// Lines of the camera by the phases of the rows.
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/identification/camera_lines.h"
+#include "core/identification/camera_shape.h"
+#include "core/identification/line_height.h"
+#include "core/linear/median.h"
+#include "core/types/constants.h"
+#include "core/types/witness.h"
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kOneDirection = 0.99;     // |cosine| between axes that measure the same
+constexpr std::size_t kFewestSensors = 5;  // two for the structure, two for the slow camera, one for the line
+constexpr std::size_t kMostSensors = 10;   // more cost time only
+constexpr double kValuesPerSensor = 2.0;   // independent values of a bin, for its inverse
+constexpr double kLoading = 1e-6;          // of the mean power, added to the diagonal
+// An alias order whose phases over the rows are like those of a frequency within the search range shows the structure.
+constexpr double kLikeStructure = 0.6;
+constexpr std::size_t kFewestOrders = 5;
+// Height of an order over the median height of all: a strong mode raises every order alike.
+constexpr double kLeastContrast = 10.0, kSurelyContrast = 50.0;
+// What a strong mode leaves in the orders lies this near to it, or in more orders than those of a line.
+constexpr double kNearMode_hz = 0.5;
+constexpr double kNotDistinguished = 0.5, kLineEdge = 1.0 / 8.0;
+constexpr std::size_t kMostOfOneLine = 3;
+constexpr int kCentrings = 3;
+constexpr std::size_t kMostRowLines = 4;
+
+// Channels that measure one direction, seen in rows of their own.
+struct Sensors {
+  std::vector<int> channel;
+  std::vector<double> sign, delay_s;
+};
+
+Sensors sensors_of(const std::vector<ChannelInfo>& channels) {
+  std::vector<std::size_t> alike;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].n_integrations == 0 && !witnesses_turn(channels[c]) &&
+        std::abs(cosine_between(channels[c], channels.front())) > kOneDirection)
+      alike.push_back(c);
+  }
+  std::stable_sort(alike.begin(), alike.end(),
+                   [&](std::size_t a, std::size_t b) { return channels[a].row_delay_s < channels[b].row_delay_s; });
+  const std::size_t n = std::min(alike.size(), kMostSensors);
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < n; ++i) used.push_back(alike[n > 1 ? i * (alike.size() - 1) / (n - 1) : 0]);
+  std::sort(used.begin(), used.end());
+  Sensors out;
+  for (const std::size_t c : used) {
+    out.channel.push_back(static_cast<int>(c));
+    out.sign.push_back(cosine_between(channels[c], channels.front()) < 0.0 ? -1.0 : 1.0);
+    out.delay_s.push_back(channels[c].row_delay_s);
+  }
+  return out;
+}
+
+class RowArray {
+ public:
+  RowArray(const CpsdSums& sums, Sensors sensors, const FoldingConfig& folding)
+      : sums_(sums),
+        sensors_(std::move(sensors)),
+        rate_hz_(sums.rate_hz),
+        hz_per_bin_(sums.rate_hz / sums.n_fft),
+        limit_hz_(std::max(folding.max_frequency_hz, 0.5 * sums.rate_hz)),
+        reach_(static_cast<int>(std::ceil(kFastestCamera_hz / sums.rate_hz)) + 1) {
+    const double values = (2 * kLineSmoothing + 1) / kBinsPerValue * std::max(1.0, sums.weight.effective());
+    if (sensors_.channel.size() < kFewestSensors ||
+        values < kValuesPerSensor * static_cast<double>(sensors_.channel.size()))
+      return;
+    for (int n = -reach_; n <= reach_; ++n) likeness_.push_back(likeness(n * rate_hz_));
+    set_contrast();
+  }
+
+  // The clearest first. motion stays empty.
+  [[nodiscard]] std::vector<CameraLine> lines(const std::vector<double>& modes_hz) const {
+    std::vector<CameraLine> out;
+    std::vector<std::vector<double>> contrast = contrast_;
+    while (!contrast.empty() && out.size() < kMostRowLines) {
+      std::size_t order = 0;
+      int bin = 0;
+      for (std::size_t k = 0; k < contrast.size(); ++k) {
+        const auto highest = std::max_element(contrast[k].begin(), contrast[k].end());
+        if (*highest > contrast[order][static_cast<std::size_t>(bin)])
+          order = k, bin = static_cast<int>(highest - contrast[k].begin());
+      }
+      if (contrast[order][static_cast<std::size_t>(bin)] < kLeastContrast) break;
+      CameraLine line = line_at(order, bin);
+      const bool is_near_mode = std::any_of(modes_hz.begin(), modes_hz.end(), [&](double hz) {
+        return std::min(std::abs(line.apparent_hz - hz), std::abs(bin * hz_per_bin_ - hz)) < kNearMode_hz;
+      });
+      const bool is_distinct =
+          line.true_hz.size() <= kMostOfOneLine && (!is_near_mode || line.height > kSurelyContrast);
+      leave_out(bin * hz_per_bin_, is_distinct ? 2.0 * kLineReach_hz : kNearMode_hz, contrast);
+      if (is_distinct) out.push_back(std::move(line));
+    }
+    return out;
+  }
+
+ private:
+  void leave_out(double hz, double reach_hz, std::vector<std::vector<double>>& contrast) const {
+    const int first = std::max(0, static_cast<int>((hz - reach_hz) / hz_per_bin_));
+    const int last = std::min(sums_.n_bins() - 1, static_cast<int>((hz + reach_hz) / hz_per_bin_));
+    for (auto& of_order : contrast) {
+      for (int bin = first; bin <= last; ++bin) of_order[static_cast<std::size_t>(bin)] = 0.0;
+    }
+  }
+
+  [[nodiscard]] double signed_hz(std::size_t order, double apparent_hz) const noexcept {
+    return apparent_hz + (static_cast<int>(order) - reach_) * rate_hz_;
+  }
+
+  // Similarity of the phases that two frequencies this far apart have in the rows, 0 ... 1.
+  [[nodiscard]] double likeness(double apart_hz) const {
+    Complex sum = 0.0;
+    for (const double delay : sensors_.delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
+    return std::abs(sum) / static_cast<double>(sensors_.delay_s.size());
+  }
+
+  // Neither within the search range, nor alike a frequency that is.
+  [[nodiscard]] bool is_beyond(std::size_t order, double apparent_hz) const {
+    const double hz = std::abs(signed_hz(order, apparent_hz));
+    if (hz <= limit_hz_ || hz > kFastestCamera_hz) return false;
+    for (std::size_t other = 0; other < likeness_.size(); ++other) {
+      const auto apart = static_cast<std::size_t>(
+          std::min(std::abs(static_cast<int>(order) - static_cast<int>(other)), reach_) + reach_);
+      if (std::abs(signed_hz(other, apparent_hz)) <= limit_hz_ && likeness_[apart] > kLikeStructure) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Eigen::MatrixXcd smoothed_cross_spectrum(int bin) const {
+    const auto n = static_cast<Eigen::Index>(sensors_.channel.size());
+    Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(n, n);
+    const auto [first, last] = smoothing_at(bin, sums_.n_bins());
+    for (int b = first; b <= last; ++b) {
+      const Complex* pairs = sums_.data_sum.data() + static_cast<std::ptrdiff_t>(b) * sums_.n_pairs();
+      for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = i; j < n; ++j) {
+          const auto a = static_cast<std::size_t>(i), z = static_cast<std::size_t>(j);
+          out(i, j) += sensors_.sign[a] * sensors_.sign[z] *
+                       pairs[CpsdSums::pair_index(sensors_.channel[a], sensors_.channel[z], sums_.n_channels)];
+        }
+      }
+    }
+    out /= static_cast<double>(last - first + 1);
+    out.triangularView<Eigen::StrictlyLower>() = out.adjoint();
+    return out;
+  }
+
+  // 1 / u' S^-1 u of every order, u the phases of its frequency.
+  [[nodiscard]] std::vector<double> least_variances(int bin) const {
+    Eigen::MatrixXcd spectrum = smoothed_cross_spectrum(bin);
+    const Eigen::Index n = spectrum.rows();
+    const double mean = spectrum.trace().real() / static_cast<double>(n);
+    std::vector<double> out(likeness_.size(), 0.0);
+    if (!(mean > 0.0)) return out;
+    spectrum.diagonal().array() += kLoading * mean;
+    const Eigen::LLT<Eigen::MatrixXcd> factor(spectrum);
+    if (factor.info() != Eigen::Success) return out;
+    Eigen::VectorXcd phases(n);
+    for (std::size_t order = 0; order < out.size(); ++order) {
+      const double hz = signed_hz(order, bin * hz_per_bin_);
+      for (Eigen::Index i = 0; i < n; ++i)
+        phases[i] = std::polar(1.0, kTwoPi * hz * sensors_.delay_s[static_cast<std::size_t>(i)]);
+      const double squared = factor.matrixL().solve(phases).squaredNorm();
+      if (squared > 0.0) out[order] = 1.0 / squared;
+    }
+    return out;
+  }
+
+  void set_contrast() {
+    std::vector<std::vector<double>> height(likeness_.size());
+    for (int bin = 0; bin < sums_.n_bins(); ++bin) {
+      const std::vector<double> power = least_variances(bin);
+      for (std::size_t order = 0; order < power.size(); ++order) height[order].push_back(power[order]);
+    }
+    for (auto& of_order : height) of_order = heights(of_order, hz_per_bin_);
+    contrast_.assign(height.size(), std::vector<double>(static_cast<std::size_t>(sums_.n_bins()), 0.0));
+    std::vector<double> allowed;
+    for (int bin = 0; bin < sums_.n_bins(); ++bin) {
+      const auto b = static_cast<std::size_t>(bin);
+      allowed.clear();
+      for (std::size_t order = 0; order < height.size(); ++order) {
+        if (is_beyond(order, bin * hz_per_bin_)) allowed.push_back(height[order][b]);
+      }
+      if (allowed.size() < kFewestOrders) continue;
+      const double usual = std::max(1.0, median_in_place(allowed));
+      for (std::size_t order = 0; order < height.size(); ++order) {
+        if (is_beyond(order, bin * hz_per_bin_)) contrast_[order][b] = height[order][b] / usual;
+      }
+    }
+  }
+
+  // A strong line is suppressed in its own middle: its centre is that of its flanks.
+  [[nodiscard]] double centre(std::size_t order, int bin) const {
+    const std::vector<double>& height = contrast_[order];
+    const double least = kLineEdge * height[static_cast<std::size_t>(bin)];
+    const double reach = kLineReach_hz / hz_per_bin_;
+    double at = bin;
+    for (int round = 0; round < kCentrings; ++round) {
+      double sum = 0.0, moment = 0.0;
+      for (int b = std::max(0, static_cast<int>(at - reach)); b <= std::min(sums_.n_bins() - 1.0, at + reach); ++b) {
+        const double here = height[static_cast<std::size_t>(b)];
+        if (here > least) sum += here, moment += here * b;
+      }
+      if (sum > 0.0) at = moment / sum;
+    }
+    return at * hz_per_bin_;
+  }
+
+  [[nodiscard]] CameraLine line_at(std::size_t order, int bin) const {
+    CameraLine out;
+    const auto b = static_cast<std::size_t>(bin);
+    out.apparent_hz = centre(order, bin);
+    out.half_width_hz = kLineReach_hz;
+    out.height = contrast_[order][b];
+    double second = 0.0;
+    for (std::size_t other = 0; other < contrast_.size(); ++other) {
+      const double share = contrast_[other][b] / out.height;
+      if (share >= kNotDistinguished) out.true_hz.push_back(signed_hz(other, out.apparent_hz));
+      if (other != order) second = std::max(second, share);
+    }
+    out.margin = 1.0 - second;
+    std::sort(out.true_hz.begin(), out.true_hz.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+    return out;
+  }
+
+  const CpsdSums& sums_;
+  Sensors sensors_;
+  double rate_hz_, hz_per_bin_, limit_hz_;
+  int reach_;                                  // alias orders -reach_ ... reach_
+  std::vector<double> likeness_;               // of every order's distance from order 0
+  std::vector<std::vector<double>> contrast_;  // orders x bins; 0 where an order may show the structure
+};
+
+}  // namespace
+
+std::vector<CameraLine> lines_by_row_phases(const CpsdSums& sums, const std::vector<ChannelInfo>& channels,
+                                            const FoldingConfig& folding, const std::vector<double>& modes_hz) {
+  if (channels.empty()) return {};
+  std::vector<CameraLine> lines = RowArray(sums, sensors_of(channels), folding).lines(modes_hz);
+  for (CameraLine& line : lines) {
+    for (std::size_t c = 0; c < folding.delay_s.size(); ++c) {
+      const double turn = kTwoPi * line.true_hz.front() * folding.delay_s[c];
+      line.motion.push_back(cosine_between(channels[c], channels.front()) * std::polar(1.0, turn));
+    }
+  }
+  return lines;
+}
+
+}  // namespace core
