@@ -25,7 +25,7 @@ inline constexpr double kBinsPerValue = 2.6;  // bins per independent value
 // slope of the hover drift the level is too high rather than too low. Near half the rate the lower side alone; 0 where
 // there is no lower side.
 [[nodiscard]] inline std::vector<double> heights(const std::vector<double>& smooth, double hz_per_bin) {
-  constexpr int kFewest = 10;  // bins of a side
+  constexpr int kFewest = 8;  // bins of a side
   const auto bins = [&](double hz) { return static_cast<int>(hz / hz_per_bin); };
   const auto beside = [&](int first, int last) {
     first = std::max(first, bins(kSlowestBeside_hz)), last = std::min(last, static_cast<int>(smooth.size()));

@@ -23,6 +23,7 @@ constexpr double kOneDirection = 0.99;     // |cosine| between axes that measure
 constexpr std::size_t kFewestSensors = 5;  // two for the structure, two for the slow camera, one for the line
 constexpr std::size_t kMostSensors = 10;   // more cost time only
 constexpr double kValuesPerSensor = 2.0;   // independent values of a bin, for its inverse
+constexpr int kStep = 2;                   // bins from one value to the next: each is a mean over four times as many
 constexpr double kLoading = 1e-6;          // of the mean power, added to the diagonal
 // An alias order whose phases over the rows are like those of a frequency within the search range shows the structure.
 constexpr double kLikeStructure = 0.6;
@@ -70,15 +71,18 @@ class RowArray {
       : sums_(sums),
         sensors_(std::move(sensors)),
         rate_hz_(sums.rate_hz),
-        hz_per_bin_(sums.rate_hz / sums.n_fft),
+        hz_per_step_(kStep * sums.rate_hz / sums.n_fft),
         limit_hz_(std::max(folding.max_frequency_hz, 0.5 * sums.rate_hz)),
-        reach_(static_cast<int>(std::ceil(kFastestCamera_hz / sums.rate_hz)) + 1) {
+        reach_(static_cast<int>(std::ceil(std::max(kFastestCamera_hz, limit_hz_) / sums.rate_hz)) + 1),
+        n_steps_((sums.n_bins() + kStep - 1) / kStep) {
     const double values = (2 * kLineSmoothing + 1) / kBinsPerValue * std::max(1.0, sums.weight.effective());
     if (sensors_.channel.size() < kFewestSensors ||
         values < kValuesPerSensor * static_cast<double>(sensors_.channel.size()))
       return;
-    for (int n = -reach_; n <= reach_; ++n) likeness_.push_back(likeness(n * rate_hz_));
-    set_contrast();
+    for (int n = 0; n <= 2 * reach_; ++n) likeness_.push_back(likeness(n * rate_hz_));
+    set_beyond();
+    const auto has_enough = [](const std::vector<std::size_t>& orders) { return orders.size() >= kFewestOrders; };
+    if (std::any_of(beyond_.begin(), beyond_.end(), has_enough)) set_contrast();
   }
 
   // The clearest first. motion stays empty.
@@ -86,21 +90,20 @@ class RowArray {
     std::vector<CameraLine> out;
     std::vector<std::vector<double>> contrast = contrast_;
     while (!contrast.empty() && out.size() < kMostRowLines) {
-      std::size_t order = 0;
-      int bin = 0;
+      std::size_t order = 0, step = 0;
       for (std::size_t k = 0; k < contrast.size(); ++k) {
         const auto highest = std::max_element(contrast[k].begin(), contrast[k].end());
-        if (*highest > contrast[order][static_cast<std::size_t>(bin)])
-          order = k, bin = static_cast<int>(highest - contrast[k].begin());
+        if (*highest > contrast[order][step]) order = k, step = static_cast<std::size_t>(highest - contrast[k].begin());
       }
-      if (contrast[order][static_cast<std::size_t>(bin)] < kLeastContrast) break;
-      CameraLine line = line_at(order, bin);
+      if (contrast[order][step] < kLeastContrast) break;
+      const double highest_hz = static_cast<double>(step) * hz_per_step_;
+      CameraLine line = line_at(order, step);
       const bool is_near_mode = std::any_of(modes_hz.begin(), modes_hz.end(), [&](double hz) {
-        return std::min(std::abs(line.apparent_hz - hz), std::abs(bin * hz_per_bin_ - hz)) < kNearMode_hz;
+        return std::min(std::abs(line.apparent_hz - hz), std::abs(highest_hz - hz)) < kNearMode_hz;
       });
       const bool is_distinct =
           line.true_hz.size() <= kMostOfOneLine && (!is_near_mode || line.height > kSurelyContrast);
-      leave_out(bin * hz_per_bin_, is_distinct ? 2.0 * kLineReach_hz : kNearMode_hz, contrast);
+      leave_out(highest_hz, is_distinct ? 2.0 * kLineReach_hz : kNearMode_hz, contrast);
       if (is_distinct) out.push_back(std::move(line));
     }
     return out;
@@ -108,12 +111,12 @@ class RowArray {
 
  private:
   void leave_out(double hz, double reach_hz, std::vector<std::vector<double>>& contrast) const {
-    const int first = std::max(0, static_cast<int>((hz - reach_hz) / hz_per_bin_));
-    const int last = std::min(sums_.n_bins() - 1, static_cast<int>((hz + reach_hz) / hz_per_bin_));
-    for (auto& of_order : contrast) {
-      for (int bin = first; bin <= last; ++bin) of_order[static_cast<std::size_t>(bin)] = 0.0;
-    }
+    const int first = std::max(0, static_cast<int>((hz - reach_hz) / hz_per_step_));
+    const int last = std::min(n_steps_ - 1, static_cast<int>((hz + reach_hz) / hz_per_step_));
+    for (auto& of_order : contrast) std::fill(of_order.begin() + first, of_order.begin() + last + 1, 0.0);
   }
+
+  [[nodiscard]] std::size_t n_orders() const noexcept { return 2 * static_cast<std::size_t>(reach_) + 1; }
 
   [[nodiscard]] double signed_hz(std::size_t order, double apparent_hz) const noexcept {
     return apparent_hz + (static_cast<int>(order) - reach_) * rate_hz_;
@@ -130,18 +133,26 @@ class RowArray {
   [[nodiscard]] bool is_beyond(std::size_t order, double apparent_hz) const {
     const double hz = std::abs(signed_hz(order, apparent_hz));
     if (hz <= limit_hz_ || hz > kFastestCamera_hz) return false;
-    for (std::size_t other = 0; other < likeness_.size(); ++other) {
-      const auto apart = static_cast<std::size_t>(
-          std::min(std::abs(static_cast<int>(order) - static_cast<int>(other)), reach_) + reach_);
-      if (std::abs(signed_hz(other, apparent_hz)) <= limit_hz_ && likeness_[apart] > kLikeStructure) return false;
+    for (std::size_t other = 0; other < n_orders(); ++other) {
+      const double alike = likeness_[order > other ? order - other : other - order];
+      if (alike > kLikeStructure && std::abs(signed_hz(other, apparent_hz)) <= limit_hz_) return false;
     }
     return true;
   }
 
-  [[nodiscard]] Eigen::MatrixXcd smoothed_cross_spectrum(int bin) const {
+  void set_beyond() {
+    beyond_.resize(static_cast<std::size_t>(n_steps_));
+    for (int step = 0; step < n_steps_; ++step) {
+      for (std::size_t order = 0; order < n_orders(); ++order) {
+        if (is_beyond(order, step * hz_per_step_)) beyond_[static_cast<std::size_t>(step)].push_back(order);
+      }
+    }
+  }
+
+  [[nodiscard]] Eigen::MatrixXcd smoothed_cross_spectrum(int step) const {
     const auto n = static_cast<Eigen::Index>(sensors_.channel.size());
     Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(n, n);
-    const auto [first, last] = smoothing_at(bin, sums_.n_bins());
+    const auto [first, last] = smoothing_at(kStep * step, sums_.n_bins());
     for (int b = first; b <= last; ++b) {
       const Complex* pairs = sums_.data_sum.data() + static_cast<std::ptrdiff_t>(b) * sums_.n_pairs();
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -157,76 +168,71 @@ class RowArray {
     return out;
   }
 
-  // 1 / u' S^-1 u of every order, u the phases of its frequency.
-  [[nodiscard]] std::vector<double> least_variances(int bin) const {
-    Eigen::MatrixXcd spectrum = smoothed_cross_spectrum(bin);
-    const Eigen::Index n = spectrum.rows();
-    const double mean = spectrum.trace().real() / static_cast<double>(n);
-    std::vector<double> out(likeness_.size(), 0.0);
-    if (!(mean > 0.0)) return out;
-    spectrum.diagonal().array() += kLoading * mean;
-    const Eigen::LLT<Eigen::MatrixXcd> factor(spectrum);
-    if (factor.info() != Eigen::Success) return out;
-    Eigen::VectorXcd phases(n);
-    for (std::size_t order = 0; order < out.size(); ++order) {
-      const double hz = signed_hz(order, bin * hz_per_bin_);
-      for (Eigen::Index i = 0; i < n; ++i)
-        phases[i] = std::polar(1.0, kTwoPi * hz * sensors_.delay_s[static_cast<std::size_t>(i)]);
-      const double squared = factor.matrixL().solve(phases).squaredNorm();
-      if (squared > 0.0) out[order] = 1.0 / squared;
-    }
+  // Phases of a frequency in the sensors.
+  [[nodiscard]] Eigen::VectorXcd phases_of(double hz) const {
+    Eigen::VectorXcd out(static_cast<Eigen::Index>(sensors_.delay_s.size()));
+    for (Eigen::Index i = 0; i < out.size(); ++i)
+      out[i] = std::polar(1.0, kTwoPi * hz * sensors_.delay_s[static_cast<std::size_t>(i)]);
     return out;
   }
 
+  // 1 / u' S^-1 u of every order, u the phases of its frequency; 0 without motion.
+  [[nodiscard]] Eigen::VectorXd least_variances(int step) const {
+    const auto n = static_cast<Eigen::Index>(n_orders());
+    Eigen::MatrixXcd spectrum = smoothed_cross_spectrum(step);
+    const double mean = spectrum.trace().real() / static_cast<double>(spectrum.rows());
+    spectrum.diagonal().array() += kLoading * mean;
+    const Eigen::LLT<Eigen::MatrixXcd> factor(spectrum);
+    if (!(mean > 0.0) || factor.info() != Eigen::Success) return Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXcd phases(spectrum.rows(), n);
+    const Eigen::VectorXcd of_one_order = phases_of(rate_hz_);
+    phases.col(0) = phases_of(signed_hz(0, step * hz_per_step_));
+    for (Eigen::Index k = 1; k < n; ++k) phases.col(k) = phases.col(k - 1).cwiseProduct(of_one_order);
+    factor.matrixL().solveInPlace(phases);
+    return phases.colwise().squaredNorm().cwiseInverse().transpose();
+  }
+
   void set_contrast() {
-    std::vector<std::vector<double>> height(likeness_.size());
-    for (int bin = 0; bin < sums_.n_bins(); ++bin) {
-      const std::vector<double> power = least_variances(bin);
-      for (std::size_t order = 0; order < power.size(); ++order) height[order].push_back(power[order]);
-    }
-    for (auto& of_order : height) of_order = heights(of_order, hz_per_bin_);
-    contrast_.assign(height.size(), std::vector<double>(static_cast<std::size_t>(sums_.n_bins()), 0.0));
+    Eigen::MatrixXd power(n_steps_, static_cast<Eigen::Index>(n_orders()));
+    for (int step = 0; step < n_steps_; ++step) power.row(step) = least_variances(step).transpose();
+    std::vector<std::vector<double>> height;
+    for (Eigen::Index order = 0; order < power.cols(); ++order)
+      height.push_back(heights({power.col(order).begin(), power.col(order).end()}, hz_per_step_));
+    contrast_.assign(n_orders(), std::vector<double>(static_cast<std::size_t>(n_steps_), 0.0));
     std::vector<double> allowed;
-    for (int bin = 0; bin < sums_.n_bins(); ++bin) {
-      const auto b = static_cast<std::size_t>(bin);
+    for (std::size_t step = 0; step < beyond_.size(); ++step) {
+      if (beyond_[step].size() < kFewestOrders) continue;
       allowed.clear();
-      for (std::size_t order = 0; order < height.size(); ++order) {
-        if (is_beyond(order, bin * hz_per_bin_)) allowed.push_back(height[order][b]);
-      }
-      if (allowed.size() < kFewestOrders) continue;
+      for (const std::size_t order : beyond_[step]) allowed.push_back(height[order][step]);
       const double usual = std::max(1.0, median_in_place(allowed));
-      for (std::size_t order = 0; order < height.size(); ++order) {
-        if (is_beyond(order, bin * hz_per_bin_)) contrast_[order][b] = height[order][b] / usual;
-      }
+      for (const std::size_t order : beyond_[step]) contrast_[order][step] = height[order][step] / usual;
     }
   }
 
   // A strong line is suppressed in its own middle: its centre is that of its flanks.
-  [[nodiscard]] double centre(std::size_t order, int bin) const {
+  [[nodiscard]] double centre_hz(std::size_t order, std::size_t highest) const {
     const std::vector<double>& height = contrast_[order];
-    const double least = kLineEdge * height[static_cast<std::size_t>(bin)];
-    const double reach = kLineReach_hz / hz_per_bin_;
-    double at = bin;
+    const double least = kLineEdge * height[highest], reach = kLineReach_hz / hz_per_step_;
+    auto at = static_cast<double>(highest);
     for (int round = 0; round < kCentrings; ++round) {
       double sum = 0.0, moment = 0.0;
-      for (int b = std::max(0, static_cast<int>(at - reach)); b <= std::min(sums_.n_bins() - 1.0, at + reach); ++b) {
-        const double here = height[static_cast<std::size_t>(b)];
-        if (here > least) sum += here, moment += here * b;
+      const auto first = static_cast<std::size_t>(std::max(0.0, at - reach));
+      for (std::size_t step = first; step < height.size() && static_cast<double>(step) <= at + reach; ++step) {
+        if (height[step] > least) sum += height[step], moment += height[step] * static_cast<double>(step);
       }
       if (sum > 0.0) at = moment / sum;
     }
-    return at * hz_per_bin_;
+    return at * hz_per_step_;
   }
 
-  [[nodiscard]] CameraLine line_at(std::size_t order, int bin) const {
+  [[nodiscard]] CameraLine line_at(std::size_t order, std::size_t step) const {
     CameraLine out;
-    const auto b = static_cast<std::size_t>(bin);
-    out.apparent_hz = centre(order, bin);
+    out.apparent_hz = centre_hz(order, step);
     out.half_width_hz = kLineReach_hz;
-    out.height = contrast_[order][b];
+    out.height = contrast_[order][step];
     double second = 0.0;
     for (std::size_t other = 0; other < contrast_.size(); ++other) {
-      const double share = contrast_[other][b] / out.height;
+      const double share = contrast_[other][step] / out.height;
       if (share >= kNotDistinguished) out.true_hz.push_back(signed_hz(other, out.apparent_hz));
       if (other != order) second = std::max(second, share);
     }
@@ -237,10 +243,11 @@ class RowArray {
 
   const CpsdSums& sums_;
   Sensors sensors_;
-  double rate_hz_, hz_per_bin_, limit_hz_;
-  int reach_;                                  // alias orders -reach_ ... reach_
-  std::vector<double> likeness_;               // of every order's distance from order 0
-  std::vector<std::vector<double>> contrast_;  // orders x bins; 0 where an order may show the structure
+  double rate_hz_, hz_per_step_, limit_hz_;
+  int reach_, n_steps_;                           // alias orders -reach_ ... reach_; values along the frequency
+  std::vector<double> likeness_;                  // by the distance of two orders
+  std::vector<std::vector<std::size_t>> beyond_;  // per step: the orders that the structure does not show
+  std::vector<std::vector<double>> contrast_;     // orders x steps; 0 where an order may show the structure
 };
 
 }  // namespace
