@@ -14,7 +14,7 @@ namespace core {
 struct CameraLine {
   double apparent_hz = 0.0;
   double half_width_hz = 0.0;
-  double height = 0.0;         // power over that of the spectrum to either side
+  double height = 0.0;  // power over that of the spectrum to either side; by the rows, over that of other orders, too
   bool of_the_region = false;  // seen in the spectrum of a static region; otherwise by the rows' phases
   // Signed frequencies whose row delays give this motion, by magnitude: those that the rows do not distinguish.
   // Empty: none does, or there are too few rows.

@@ -16,7 +16,7 @@ inline constexpr double kLineReach_hz = 1.0, kLineBeside_hz = 3.0, kSlowestBesid
 inline constexpr int kLineSmoothing = 4;
 inline constexpr double kBinsPerValue = 2.6;  // bins per independent value
 
-// Mean over bins first ... last of a spectrum, as far as it has them.
+// First and last of the bins that are averaged for one.
 [[nodiscard]] inline std::pair<int, int> smoothing_at(int bin, int n_bins) noexcept {
   return {std::max(0, bin - kLineSmoothing), std::min(n_bins - 1, bin + kLineSmoothing)};
 }
@@ -35,7 +35,7 @@ inline constexpr double kBinsPerValue = 2.6;  // bins per independent value
   std::vector<double> out;
   for (int bin = 0; bin < static_cast<int>(smooth.size()); ++bin) {
     const double below = beside(bin - far, bin - near), above = beside(bin + near + 1, bin + far + 1);
-    const double level = above > 0.0 ? std::sqrt(below * above) : below;
+    const double level = above > 0.0 ? std::sqrt(below) * std::sqrt(above) : below;
     out.push_back(below > 0.0 ? smooth[static_cast<std::size_t>(bin)] / level : 0.0);
   }
   return out;
