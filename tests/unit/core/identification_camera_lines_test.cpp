@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kRate_hz = 25.0, kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::size_t kOutputs = 7;
-const double kShape[kOutputs] = {0.2, 0.4, 0.6, 0.75, 0.9, 1.0, 0.0};
+constexpr std::array<double, kOutputs> kShape{0.2, 0.4, 0.6, 0.75, 0.9, 1.0, 0.0};
 
 // A structure in noise, seen from a camera that hovers and vibrates.
 struct Flight {
