@@ -19,7 +19,8 @@ struct RestingMotion {
 // stays in the points, in all regions alike.
 //
 // A point is moved back by what the rotation does to its place in the keyframe, not to its present place: a translation
-// taken for a rotation would otherwise scale the structure's motion by its place in the image (0.3 % for 0.3 m at 20 m).
+// taken for a rotation would otherwise scale the structure's motion by its place in the image (0.3 % for 0.3 m at 20
+// m).
 //
 // One thread; does not allocate. A frame without add() keeps the rotation.
 class SlowRotation {
