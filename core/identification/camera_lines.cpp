@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/identification/line_height.h"
 #include "core/identification/mac.h"
 #include "core/identification/spectral_peaks.h"
 #include "core/identification/verdict_words.h"
@@ -66,9 +65,8 @@ std::vector<double> frequencies_of_structure(const ModalEstimate& estimate) {
 
 // The pole of the camera that is listed there; null: none.
 Mode* listed_pole(const CameraLine& line, std::vector<Mode>& poles) {
-  const double reach_hz = line.of_the_region ? line.half_width_hz : kLineReach_hz;
   const auto pole = std::find_if(poles.begin(), poles.end(), [&](const Mode& one) {
-    return one.verdict == Verdict::kCameraMotion && std::abs(one.apparent_hz - line.apparent_hz) < reach_hz;
+    return one.verdict == Verdict::kCameraMotion && std::abs(one.apparent_hz - line.apparent_hz) < line.half_width_hz;
   });
   return pole != poles.end() ? &*pole : nullptr;
 }

@@ -24,9 +24,10 @@ struct CameraLine {
 };
 
 inline constexpr std::size_t kMostCameraLines = 4;
+inline constexpr std::size_t kMostTrueFrequencies = 3;  // that the rows may leave open
 
 // In all of these: channels: of the sums, witnesses last, with the row delays that the samples still have; folding:
-// delays of the outputs. Empty where a segment resolves no more than a quarter of a hertz. Deterministic.
+// delays of the outputs. Deterministic.
 
 // Narrow peaks in the spectra of static regions. What the outputs do with them comes from their cross-spectrum, with
 // which the structure's own motion is not coherent; from its phases over the rows follows the true frequency.
@@ -43,8 +44,9 @@ inline constexpr std::size_t kMostCameraLines = 4;
                                                           const FoldingConfig& folding,
                                                           const std::vector<double>& modes_hz);
 
-// Lists both kinds in `rejected`, from four segments on, as poles without damping that are motion of the camera, at
-// most kMostCameraLines. Where such a pole is listed, its reason gets the true frequency instead.
+// Lists both kinds in `rejected`, from four segments of at least four seconds on, as poles without damping that are
+// motion of the camera, at most kMostCameraLines. Where such a pole is listed, its reason gets the true frequency
+// instead.
 void list_camera_lines(const CpsdSums& sums, const std::vector<ChannelInfo>& channels, const FoldingConfig& folding,
                        ModalEstimate& estimate);
 

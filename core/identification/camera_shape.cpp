@@ -24,4 +24,10 @@ double camera_share(const std::vector<std::complex<double>>& observed, double fr
   return (std::norm(constant) / n + std::norm(slope) / slopes) / whole;
 }
 
+double phase_likeness(double apart_hz, const std::vector<double>& delay_s) {
+  std::complex<double> sum = 0.0;
+  for (const double delay : delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
+  return std::abs(sum) / static_cast<double>(delay_s.size());
+}
+
 }  // namespace core

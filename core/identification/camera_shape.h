@@ -14,4 +14,7 @@ inline constexpr double kFastestCamera_hz = 250.0;
 [[nodiscard]] double camera_share(const std::vector<std::complex<double>>& observed, double frequency_hz,
                                   const std::vector<double>& delay_s);
 
+// Similarity of the phases that two frequencies this far apart cause in the channels, 0 ... 1.
+[[nodiscard]] double phase_likeness(double apart_hz, const std::vector<double>& delay_s);
+
 }  // namespace core

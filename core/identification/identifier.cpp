@@ -179,12 +179,10 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
     const CpsdSums steadied = without_lines(sums, lines);
     identify_modes(steadied, records, field, estimate);
     identify_shared(steadied, records, estimate);
+    for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding_config(sums.rate_hz)))
+      estimate.rejected.push_back(std::move(line));
   }
-  if (!subtracts) return estimate;
-  const FoldingConfig folding = folding_config(sums.rate_hz);
-  for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding))
-    estimate.rejected.push_back(std::move(line));
-  list_camera_lines(sums, delays_as_undone(), folding, estimate);
+  if (subtracts) list_camera_lines(sums, delays_as_undone(), folding_config(sums.rate_hz), estimate);
   return estimate;
 }
 

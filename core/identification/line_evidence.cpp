@@ -27,13 +27,6 @@ constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
 constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2, kLeastRenewals = 10.0;
 constexpr int kDifferences = 1;  // suppresses the hover drift
 
-// Similarity of the phases that two frequencies this far apart cause in the channels, 0..1.
-double likeness(double apart_hz, const std::vector<double>& delay_s) {
-  Complex sum = 0.0;
-  for (const double delay : delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
-  return std::abs(sum) / static_cast<double>(delay_s.size());
-}
-
 }  // namespace
 
 void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double apparent_hz,
@@ -44,7 +37,7 @@ void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double 
   const auto near_a_mode = [&](double f) {
     for (int n = -reach; n <= reach; ++n) {
       const double other = apparent_hz + n * rate_hz;
-      if (std::abs(other) <= limit_hz && likeness(f - other, folding_.delay_s) > kMostAlike) return true;
+      if (std::abs(other) <= limit_hz && phase_likeness(f - other, folding_.delay_s) > kMostAlike) return true;
     }
     return false;
   };

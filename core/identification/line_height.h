@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/linear/median.h"
+#include "core/types/cpsd.h"
 
 namespace core {
 
@@ -14,7 +15,12 @@ namespace core {
 inline constexpr double kLineReach_hz = 1.0, kLineBeside_hz = 3.0, kSlowestBeside_hz = 0.4;
 // Bins of the zero-padded spectrum, to either side, that are averaged before: the main lobe of a segment.
 inline constexpr int kLineSmoothing = 4;
-inline constexpr double kBinsPerValue = 2.6;  // bins per independent value
+
+// Independent values that the mean at one bin holds.
+[[nodiscard]] inline double values_per_bin(const CpsdSums& sums) noexcept {
+  constexpr double kBinsPerValue = 2.6;
+  return (2 * kLineSmoothing + 1) / kBinsPerValue * std::max(1.0, sums.weight.effective());
+}
 
 // First and last of the bins that are averaged for one.
 [[nodiscard]] inline std::pair<int, int> smoothing_at(int bin, int n_bins) noexcept {

@@ -33,9 +33,7 @@ constexpr double kLeastContrast = 10.0, kSurelyContrast = 50.0;
 // What a strong mode leaves in the orders lies this near to it, or in more orders than those of a line.
 constexpr double kNearMode_hz = 0.5;
 constexpr double kNotDistinguished = 0.5, kLineEdge = 1.0 / 8.0;
-constexpr std::size_t kMostOfOneLine = 3;
 constexpr int kCentrings = 3;
-constexpr std::size_t kMostRowLines = 4;
 
 // Channels that measure one direction, seen in rows of their own.
 struct Sensors {
@@ -75,11 +73,10 @@ class RowArray {
         limit_hz_(std::max(folding.max_frequency_hz, 0.5 * sums.rate_hz)),
         reach_(static_cast<int>(std::ceil(std::max(kFastestCamera_hz, limit_hz_) / sums.rate_hz)) + 1),
         n_steps_((sums.n_bins() + kStep - 1) / kStep) {
-    const double values = (2 * kLineSmoothing + 1) / kBinsPerValue * std::max(1.0, sums.weight.effective());
     if (sensors_.channel.size() < kFewestSensors ||
-        values < kValuesPerSensor * static_cast<double>(sensors_.channel.size()))
+        values_per_bin(sums) < kValuesPerSensor * static_cast<double>(sensors_.channel.size()))
       return;
-    for (int n = 0; n <= 2 * reach_; ++n) likeness_.push_back(likeness(n * rate_hz_));
+    for (int n = 0; n <= 2 * reach_; ++n) likeness_.push_back(phase_likeness(n * rate_hz_, sensors_.delay_s));
     set_beyond();
     const auto has_enough = [](const std::vector<std::size_t>& orders) { return orders.size() >= kFewestOrders; };
     if (std::any_of(beyond_.begin(), beyond_.end(), has_enough)) set_contrast();
@@ -89,7 +86,7 @@ class RowArray {
   [[nodiscard]] std::vector<CameraLine> lines(const std::vector<double>& modes_hz) const {
     std::vector<CameraLine> out;
     std::vector<std::vector<double>> contrast = contrast_;
-    while (!contrast.empty() && out.size() < kMostRowLines) {
+    while (!contrast.empty() && out.size() < kMostCameraLines) {
       std::size_t order = 0, step = 0;
       for (std::size_t k = 0; k < contrast.size(); ++k) {
         const auto highest = std::max_element(contrast[k].begin(), contrast[k].end());
@@ -102,7 +99,7 @@ class RowArray {
         return std::min(std::abs(line.apparent_hz - hz), std::abs(highest_hz - hz)) < kNearMode_hz;
       });
       const bool is_distinct =
-          line.true_hz.size() <= kMostOfOneLine && (!is_near_mode || line.height > kSurelyContrast);
+          line.true_hz.size() <= kMostTrueFrequencies && (!is_near_mode || line.height > kSurelyContrast);
       leave_out(highest_hz, is_distinct ? 2.0 * kLineReach_hz : kNearMode_hz, contrast);
       if (is_distinct) out.push_back(std::move(line));
     }
@@ -120,13 +117,6 @@ class RowArray {
 
   [[nodiscard]] double signed_hz(std::size_t order, double apparent_hz) const noexcept {
     return apparent_hz + (static_cast<int>(order) - reach_) * rate_hz_;
-  }
-
-  // Similarity of the phases that two frequencies this far apart have in the rows, 0 ... 1.
-  [[nodiscard]] double likeness(double apart_hz) const {
-    Complex sum = 0.0;
-    for (const double delay : sensors_.delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
-    return std::abs(sum) / static_cast<double>(sensors_.delay_s.size());
   }
 
   // Neither within the search range, nor alike a frequency that is.

@@ -20,7 +20,6 @@ constexpr double kEdge = 1.0 / 3.0, kWidest_hz = 1.2;
 // Shares of the motion that a camera explains, and by how much those differ that the rows do not distinguish.
 constexpr double kLeastExplained = 0.85, kAlike = 0.03;
 constexpr std::size_t kLeastRows = 4;
-constexpr std::ptrdiff_t kMostTrue = 3;
 
 struct Explained {
   double hz = 0.0, share = 0.0;
@@ -45,7 +44,7 @@ void unfold_line(const FoldingConfig& folding, CameraLine& line) {
   const double least = std::max(kLeastExplained, candidates.front().share - kAlike);
   const auto beyond =
       std::find_if(candidates.begin(), candidates.end(), [&](const Explained& one) { return one.share < least; });
-  if (beyond - candidates.begin() > kMostTrue) return;
+  if (static_cast<std::size_t>(beyond - candidates.begin()) > kMostTrueFrequencies) return;
   for (auto one = candidates.begin(); one != beyond; ++one) line.true_hz.push_back(one->hz);
   std::sort(line.true_hz.begin(), line.true_hz.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   line.margin = candidates[0].share - candidates[1].share;
@@ -66,8 +65,7 @@ class WitnessSpectrum {
   }
 
   void add_lines(const FoldingConfig& folding, std::vector<CameraLine>& lines) const {
-    const double values = (2 * kLineSmoothing + 1) / kBinsPerValue * std::max(1.0, sums_.weight.effective());
-    const double least = std::max(kLowestLine, 1.0 + kHeightSigmas / std::sqrt(values));
+    const double least = std::max(kLowestLine, 1.0 + kHeightSigmas / std::sqrt(values_per_bin(sums_)));
     std::vector<double> height = height_;
     while (true) {
       const auto highest = std::max_element(height.begin(), height.end());
