@@ -7,9 +7,10 @@
 namespace core {
 
 // A peak that noise has by chance is fitted by a pole, too. Such a pole is missing in some of the model orders, and its
-// frequency is known worse than that of a mode: a structural mode, or one of open alias order, that is missing in an
-// order and whose sigma of the frequency exceeds 2.75 times the least one (least_variances()) becomes numerical, and
-// its reason says so. Modes without a sigma stay. duration_s: of the record that is remembered.
-void reject_chance_poles(double duration_s, std::vector<Mode>& modes);
+// frequency is known worse than that of a mode: a mode (structural, or of open alias order) that is missing in an order
+// and whose sigma of the frequency exceeds 2.75 times the least one (least_variances()) becomes numerical, and its
+// reason says so. Without a sigma a mode stays, unless it is late (is_late() of verdict.h): then the sigma is what
+// makes it a mode, or a candidate. is_late[i] belongs to modes[i]. duration_s: of the record that is remembered.
+void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, std::vector<Mode>& modes);
 
 }  // namespace core

@@ -210,7 +210,10 @@ void Identifier::identify_modes(const CpsdSums& sums, const std::vector<ChannelR
   estimate.degrees_of_freedom = sigmas.degrees_of_freedom;
   std::vector<bool> along(modes.size(), false);
   if (!config_.as_published) {
-    reject_chance_poles(rules.record_s, modes);
+    std::vector<bool> late(lines.size());
+    std::transform(lines.begin(), lines.end(), late.begin(),
+                   [&](const PoleCluster& line) { return is_late(line, rules); });
+    reject_chance_poles(late, rules.record_s, modes);
     reject_out_of_phase(config_.min_mpc, sigmas, modes);
     reject_mixtures(modes);
     reject_twins(modes);

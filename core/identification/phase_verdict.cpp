@@ -23,11 +23,6 @@ bool is_within_chance(const Mode& mode, const std::optional<ModeScatter>& scatte
          *mode.frequency_std_hz < kLeastKnownWidth * mode.damping_ratio * mode.frequency_hz;
 }
 
-void reject(double min_mpc, Mode& mode) {
-  set(mode, Verdict::kNumerical, in_words("components not in phase: MPC %.2f < %.2f", mode.mpc, min_mpc));
-  mode.frequency_std_hz.reset(), mode.damping_std.reset(), mode.shape_std.clear();
-}
-
 }  // namespace
 
 void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>& modes) {
@@ -38,7 +33,7 @@ void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>
     if (is_within_chance(mode, sigmas.scatter[i])) {
       mode.reason += "; its phases differ no more than they scatter";
     } else if (mode.mpc < min_mpc) {
-      reject(min_mpc, mode);
+      set_numerical(mode, in_words("components not in phase: MPC %.2f < %.2f", mode.mpc, min_mpc));
     } else if (mode.verdict == Verdict::kStructural) {
       set(mode, Verdict::kAmbiguous,
           in_words("a mode, but its alias order is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));

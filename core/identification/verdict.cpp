@@ -102,13 +102,25 @@ bool is_too_short(const Mode& mode, const VerdictRules& rules) noexcept {
 
 std::string candidate_reason(const Mode& mode, const VerdictRules& rules) {
   const double cycles = mode.apparent_hz * rules.record_s;
-  if (cycles < rules.least_cycles)
+  if (cycles < rules.least_cycles) {
     return in_words("%.1f cycles in the record, a verdict needs %.0f: may be a mode, to %.2g Hz", cycles,
                     rules.least_cycles, rules.resolution_hz);
+  }
   return in_words(
       "the record is too short for a verdict (%.1f samples for each equation of the model, %.0f are needed): may "
       "be a mode, to %.2g Hz",
       rules.samples_per_row, rules.least_samples_per_row, rules.resolution_hz);
+}
+
+// Which limit of damping or frequency the pole passes, in words; empty: none.
+std::string limit_passed(const Mode& mode, const VerdictRules& rules) {
+  if (mode.damping_ratio < kLeastDamping || mode.damping_ratio > rules.max_damping)
+    return in_words("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping);
+  if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz)
+    return in_words("filter edge: above the %.4g Hz passed by the decimation filter", rules.max_apparent_hz);
+  if (rules.max_frequency_hz > 0.0 && mode.frequency_hz > rules.max_frequency_hz)
+    return in_words("above the %.4g Hz of max_frequency_hz", rules.max_frequency_hz);
+  return {};
 }
 
 void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
@@ -117,14 +129,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   const double uniform = uniform_mac(mode, channels);
   const double base = base_share(mode, channels);
   const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
-  if (mode.damping_ratio < kLeastDamping || mode.damping_ratio > rules.max_damping) {
-    set(mode, Verdict::kNumerical,
-        in_words("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
-  } else if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz) {
-    set(mode, Verdict::kNumerical,
-        in_words("filter edge: above the %.4g Hz passed by the decimation filter", rules.max_apparent_hz));
-  } else if (rules.max_frequency_hz > 0.0 && mode.frequency_hz > rules.max_frequency_hz) {
-    set(mode, Verdict::kNumerical, in_words("above the %.4g Hz of max_frequency_hz", rules.max_frequency_hz));
+  if (std::string outside = limit_passed(mode, rules); !outside.empty()) {
+    set(mode, Verdict::kNumerical, std::move(outside));
   } else if (line.witness_share > rules.max_witness_share) {
     set(mode, Verdict::kCameraMotion,
         in_words("a static region moves with it: %.0f %% of the shape is camera motion", 100.0 * line.witness_share));
@@ -157,7 +163,7 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
     set(mode, Verdict::kHarmonic,
         in_words("a steady force: damping %.3f %%, but its correlation decays as with %.3f %%",
                  100.0 * mode.damping_ratio, 100.0 * *line.late_damping_ratio));
-  } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
+  } else if (is_late(cluster, rules) && (rules.last_first_i_order < 1 || cluster.presence < rules.min_presence)) {
     set(mode, Verdict::kNumerical,
         in_words("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
   } else if (is_too_short(mode, rules)) {
@@ -192,6 +198,10 @@ Mode mode_of(const PoleCluster& cluster) {
 }
 
 }  // namespace
+
+bool is_late(const PoleCluster& cluster, const VerdictRules& rules) noexcept {
+  return cluster.presence < rules.certain_presence || cluster.first_i_order > rules.last_first_i_order;
+}
 
 Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
            const std::vector<int>& orders, const VerdictRules& rules, const SpectralLineEvidence& line) {

@@ -15,8 +15,12 @@ namespace core {
 struct VerdictRules {
   double max_damping = 0.15;
   double max_apparent_hz = 0.0;  // apparent frequencies above: transition band of a preceding filter; 0 = none
-  double min_presence = 0.85;    // share of the orders
-  int last_first_i_order = 1;    // the pole is present from the canonical order on, or from the next one
+  // Presence over the model orders. A pole found in this share of them, from the canonical order on or from the next
+  // one, is certain; one found in less is no mode; one between, late, is a mode if its frequency is known as well as
+  // that of a mode is (chance_poles.h). last_first_i_order < 1: MPC carries no information, no late pole is a mode.
+  double certain_presence = 0.85;
+  double min_presence = 0.8;
+  int last_first_i_order = 1;
   double max_base_share = 0.1;   // |shape at the base| / largest
   double open_base_share = 0.3;  // up to here a clear response of the structure to its base decides ...
   double least_base_gain = 3.0;  // ... with at least this gain at a local maximum
@@ -50,6 +54,9 @@ struct VerdictRules {
 [[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response,
                          const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
                          const VerdictRules& rules, const SpectralLineEvidence& line = {});
+
+// Found in fewer orders, or later, than a pole that is certain.
+[[nodiscard]] bool is_late(const PoleCluster& cluster, const VerdictRules& rules) noexcept;
 
 // The published method classifies poles by frequency and base motion only: every vibration (damping above 0 and up to
 // `max_damping`) with little base motion (max_published_base_share) is a mode.

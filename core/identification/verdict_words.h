@@ -21,4 +21,10 @@ inline void set(Mode& mode, Verdict verdict, std::string reason) {
   mode.reason = std::move(reason);
 }
 
+// No mode, so that its standard deviations would mean nothing.
+inline void set_numerical(Mode& mode, std::string reason) {
+  set(mode, Verdict::kNumerical, std::move(reason));
+  mode.frequency_std_hz.reset(), mode.damping_std.reset(), mode.shape_std.clear();
+}
+
 }  // namespace core

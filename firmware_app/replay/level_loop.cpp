@@ -115,9 +115,10 @@ class LevelLoop {
     out.level = "clock and frames", out.unit = "ms off the grid";
     const FrameTimes& times = rows_.times;
     clock_.times_known = times.are_measured();
-    out.residual_before = 1e3 * times.jitter_rms_s;
+    // Times are nanoseconds: less is rounding.
+    out.residual_before = times.jitter_rms_s < 1e-9 ? 0.0 : 1e3 * times.jitter_rms_s;
     const bool is_moved = times.are_measured() && times.are_uneven(rows_.series.rate_hz);
-    out.residual_after = is_moved ? 0.0 : 1e3 * times.jitter_rms_s;
+    out.residual_after = is_moved ? 0.0 : out.residual_before;
     if (is_moved) {
       out.findings.push_back({fmt::format("the frames lie {:.3g} ms rms off an even grid", 1e3 * times.jitter_rms_s),
                               "the displacements are interpolated to the grid's instants"});

@@ -35,7 +35,7 @@ TEST(LeastVariances, AreThoseOfAnUnknownForce) {
 TEST(ChancePoles, APoleMissingInAnOrderAndPoorlyKnownIsNumerical) {
   for (const Verdict verdict : {Verdict::kStructural, Verdict::kAmbiguous}) {
     std::vector<Mode> modes = one_mode(14.0 / 15.0, 3.5, verdict);
-    reject_chance_poles(kDuration_s, modes);
+    reject_chance_poles({false}, kDuration_s, modes);
     EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
     EXPECT_NE(modes[0].reason.find("93 % of the orders"), std::string::npos) << modes[0].reason;
     EXPECT_NE(modes[0].reason.find("3.5 times better"), std::string::npos) << modes[0].reason;
@@ -47,7 +47,7 @@ TEST(ChancePoles, APoleMissingInAnOrderAndPoorlyKnownIsNumerical) {
 TEST(ChancePoles, APoleOfAllOrdersOrWithAWellKnownFrequencyStays) {
   for (const auto& [presence, times] : {std::pair(1.0, 10.0), std::pair(13.0 / 15.0, 2.5)}) {
     std::vector<Mode> modes = one_mode(presence, times);
-    reject_chance_poles(kDuration_s, modes);
+    reject_chance_poles({false}, kDuration_s, modes);
     EXPECT_EQ(modes[0].verdict, Verdict::kStructural) << presence;
     EXPECT_TRUE(modes[0].frequency_std_hz.has_value());
   }
@@ -59,10 +59,32 @@ TEST(ChancePoles, WithoutASigmaOrDampingThereIsNothingToCompare) {
   undamped[0].damping_ratio = -0.001;
   modes.push_back(undamped[0]);
   modes.push_back(one_mode(0.9, 10.0, Verdict::kCandidate)[0]);
-  reject_chance_poles(kDuration_s, modes);
+  reject_chance_poles({false, false, false}, kDuration_s, modes);
   EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
   EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
   EXPECT_EQ(modes[2].verdict, Verdict::kCandidate);
+}
+
+// Found at high orders only, whatever its verdict is so far.
+TEST(ChancePoles, ALatePoleIsAModeOnlyIfItsFrequencyIsKnown) {
+  for (const Verdict verdict : {Verdict::kStructural, Verdict::kAmbiguous, Verdict::kCandidate}) {
+    std::vector<Mode> modes = one_mode(12.0 / 15.0, 2.0, verdict);
+    modes.push_back(one_mode(12.0 / 15.0, 3.5, verdict)[0]);
+    modes.push_back(modes[0]);
+    modes[2].frequency_std_hz.reset();
+    reject_chance_poles({true, true, true}, kDuration_s, modes);
+    EXPECT_EQ(modes[0].verdict, verdict);
+    EXPECT_TRUE(modes[0].frequency_std_hz.has_value());
+    EXPECT_EQ(modes[1].verdict, Verdict::kNumerical);
+    EXPECT_EQ(modes[2].verdict, Verdict::kNumerical);
+    EXPECT_NE(modes[2].reason.find("without a sigma"), std::string::npos) << modes[2].reason;
+  }
+}
+
+TEST(ChancePoles, ALatePoleWithAnotherVerdictKeepsIt) {
+  std::vector<Mode> modes = one_mode(12.0 / 15.0, 10.0, Verdict::kHarmonic);
+  reject_chance_poles({true}, kDuration_s, modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kHarmonic);
 }
 
 }  // namespace

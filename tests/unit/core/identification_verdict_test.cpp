@@ -205,15 +205,28 @@ TEST(Verdict, ALargerBaseShareNeedsABaseWithoutAPeak) {
             Verdict::kInputPeak);
 }
 
-TEST(Verdict, APoleOfFewOrdersOrOfHighOrdersOnlyIsNumerical) {
+TEST(Verdict, APoleOfFewOrdersIsNumerical) {
   PoleCluster rare = flawless();
-  rare.presence = 0.5;
-  EXPECT_EQ(judged(rare).verdict, Verdict::kNumerical);
-  PoleCluster late = flawless();
-  late.first_i_order = 3;
-  const Mode mode = judged(late);
+  rare.presence = 0.75, rare.first_i_order = 3;
+  const Mode mode = judged(rare);
   EXPECT_EQ(mode.verdict, Verdict::kNumerical);
-  EXPECT_NE(mode.reason.find("order 12"), std::string::npos) << mode.reason;
+  EXPECT_NE(mode.reason.find("75 % of the orders, first at order 12"), std::string::npos) << mode.reason;
+}
+
+TEST(Verdict, ALatePoleStaysOpenUntilItsSigmaIsKnown) {
+  VerdictRules rules;
+  PoleCluster high = flawless(), scarce = flawless();
+  high.presence = 13.0 / 15.0, high.first_i_order = 2, scarce.presence = 12.0 / 15.0;
+  EXPECT_FALSE(is_late(flawless(), rules));
+  for (const PoleCluster& late : {high, scarce}) {
+    EXPECT_TRUE(is_late(late, rules));
+    EXPECT_EQ(judge(late, {}, channels(), kOrders, rules).verdict, Verdict::kStructural);
+  }
+  for (const int first : {0, -1}) {
+    rules.last_first_i_order = first;
+    for (const PoleCluster& late : {high, scarce})
+      EXPECT_EQ(judge(late, {}, channels(), kOrders, rules).verdict, Verdict::kNumerical) << "too few channels";
+  }
 }
 
 TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
