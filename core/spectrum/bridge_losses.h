@@ -17,7 +17,7 @@ namespace core {
 // through the nearest observed samples.
 // Gaps of more than kLongestBridge samples stay missing. y and held: as long as x. If all samples are observed, y is x.
 // Does not allocate; some forty microseconds per sample, only where a sample is lost.
-inline constexpr int kLongestBridge = 10;
+inline constexpr int kLongestBridge = 31;
 void bridge_losses(std::span<const double> x, std::span<const std::uint8_t> seen, std::span<double> y,
                    std::span<std::uint8_t> held) noexcept;
 

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/spectrum/bridge_losses.h"
-
 namespace core {
 
 namespace {
@@ -26,7 +24,7 @@ bool gap_weights(std::span<const std::uint8_t> seen, std::span<double> weight) n
     while (begin < seen.size() && seen[begin] != 0) ++begin;
     if (begin == seen.size()) break;
     for (end = begin; end < seen.size() && seen[end] == 0; ++end) weight[end] = 0.0;
-    if (end - begin <= kLongestBridge) continue;
+    if (end - begin <= kLongestSharp) continue;
     is_tapered = true;
     const std::size_t length = std::min<std::size_t>(end - begin, kLongestTaper);
     for (std::size_t k = 1; k <= length; ++k) {

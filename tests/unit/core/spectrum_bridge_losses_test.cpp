@@ -41,12 +41,27 @@ TEST(BridgeLosses, FollowsALineThroughEveryShortGap) {
 }
 
 TEST(BridgeLosses, LongGapsAndEndsStayMissing) {
-  std::vector<double> x(30, 1.0);
-  std::vector<std::uint8_t> seen(30, 1);
+  constexpr std::size_t kSamples = kLongestBridge + 20;
+  std::vector<double> x(kSamples, 1.0);
+  std::vector<std::uint8_t> seen(kSamples, 1);
   for (std::size_t t = 5; t < 5 + kLongestBridge + 1; ++t) seen[t] = 0, x[t] = 0.0;
-  seen[0] = seen[29] = 0;
+  seen[0] = seen[kSamples - 1] = 0;
   const Bridged out = bridged(x, seen);
-  for (std::size_t t = 0; t < 30; ++t) EXPECT_EQ(out.held[t], seen[t]) << t;
+  for (std::size_t t = 0; t < kSamples; ++t) EXPECT_EQ(out.held[t], seen[t]) << t;
+}
+
+// A slow motion with a gap in which it turns.
+TEST(BridgeLosses, TheLongestGapFollowsSlowMotion) {
+  std::vector<double> x;
+  for (int t = 0; t < 512; ++t) x.push_back(20.0 * std::cos(0.05 * t));
+  std::vector<std::uint8_t> seen(512, 1);
+  std::vector<double> lossy = x;
+  for (std::size_t t = 240; t < 240 + kLongestBridge; ++t) seen[t] = 0, lossy[t] = 0.0;
+  const Bridged out = bridged(lossy, seen);
+  for (std::size_t t = 0; t < 512; ++t) {
+    EXPECT_NEAR(out.y[t], x[t], 0.2) << t;
+    EXPECT_EQ(out.held[t], 1) << t;
+  }
 }
 
 TEST(BridgeLosses, AnythingMayBeMissing) {
