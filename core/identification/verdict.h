@@ -15,9 +15,10 @@ namespace core {
 struct VerdictRules {
   double max_damping = 0.15;
   double max_apparent_hz = 0.0;  // apparent frequencies above: transition band of a preceding filter; 0 = none
-  // Presence over the model orders. A pole found in this share of them, from the canonical order on or from the next
-  // one, is certain; one found in less is no mode; one between, late, is a mode if its frequency is known as well as
-  // that of a mode is (chance_poles.h). last_first_i_order < 1: MPC carries no information, no late pole is a mode.
+  // Shares of the model orders. A pole found in certain_presence of them or more, first in the canonical order or the
+  // next one (last_first_i_order), is certain. One found in less than min_presence is no mode. Any other is late: a
+  // mode if its frequency is known as well as that of a mode is (chance_poles.h), but with last_first_i_order < 1,
+  // where MPC carries no information, no mode.
   double certain_presence = 0.85;
   double min_presence = 0.8;
   int last_first_i_order = 1;

@@ -8,8 +8,8 @@ namespace core {
 // Weights of samples beside gaps. Slow motion of many pixels (hover) that ends at the sharp edge of a gap spreads over
 // all frequencies: beside one lost second as much of it lies at 8 Hz as the third mode of a building has. So the weight
 // rises over the kLongestTaper samples beside a gap, or as many as the gap is long, as a Hann window does, to 1. Gaps
-// of up to kLongestSharp samples are left sharp: such as are not filled (bridge_losses.h) come so often that nothing
-// would be left. seen: 1 or 0; weight: as long, 0 where not seen. A weight multiplies data and mask alike
+// of up to kLongestSharp samples are left sharp: bridge_losses.h fills them, or they come so often that nothing would
+// be left. seen: 1 or 0; weight: as long, 0 where not seen. A weight multiplies data and mask alike
 // (welch_cpsd.h), which keeps correlations unbiased. The ends of the segment are no gaps. False: no gap is longer than
 // that, and every weight is that of `seen`.
 inline constexpr int kLongestTaper = 16;
