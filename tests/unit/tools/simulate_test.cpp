@@ -59,6 +59,22 @@ TEST_F(Simulate, WritesAClipWithItsTruthAndConfiguration) {
   EXPECT_EQ(config.regions.size(), 8U);
 }
 
+TEST_F(Simulate, WritesTheSamePixelsUncompressedAndWithoutLoss) {
+  const std::string scene = "--size 320x180 --duration 1 --seed 4 --out ";
+  ASSERT_EQ(simulate("--raw " + scene + (folder_ / "raw").string()).exit_code, 0);
+  ASSERT_EQ(simulate("--crf 0 " + scene + (folder_ / "h264").string()).exit_code, 0);
+  EXPECT_EQ(fs::path(app::load_config((folder_ / "raw" / "config.yaml").string()).camera.source),
+            fs::absolute(folder_ / "raw" / "clip.y4m"));
+  EXPECT_FALSE(fs::exists(folder_ / "raw" / "clip.mp4"));
+
+  cv::VideoCapture raw((folder_ / "raw" / "clip.y4m").string()), h264((folder_ / "h264" / "clip.mp4").string());
+  ASSERT_TRUE(raw.isOpened() && h264.isOpened());
+  EXPECT_EQ(raw.get(cv::CAP_PROP_FPS), 25.0);
+  int n = 0;
+  for (cv::Mat a, b; raw.read(a) && h264.read(b); ++n) EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0.0) << "frame " << n;
+  EXPECT_EQ(n, 25);
+}
+
 TEST_F(Simulate, WritesTracksAndTrueDisplacementsFrameByFrame) {
   const Outcome outcome = simulate("--tracks-only --duration 2 --points 5 --track-noise-px 0" + out());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "drivers/storage/clip_writer.h"
 #include "drivers/storage/csv_writer.h"
 #include "tools/hovermodal/simulate/progress.h"
+#include "tools/hovermodal/simulate/raw_clip.h"
 
 namespace tools {
 namespace {
@@ -117,6 +119,21 @@ class FrameFarm {
   bool stopping_ = false;
 };
 
+// The frames go to `writer`, in order. The stamps that they need are written first: a clip never exists without them.
+template <typename Writer>
+void write_frames(const Renderer& renderer, const std::string& path, Writer& writer, int n_threads, bool is_quiet) {
+  const std::vector<DeliveredFrame> frames = delivered_frames(renderer.scene());
+  FrameFarm farm(renderer, frames, n_threads);
+  Progress progress("simulate", frames.size(), "frames", is_quiet);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    writer.write(farm.wait_for_next());
+    farm.give_back();
+    progress.update(i + 1);
+  }
+  if (needs_stamps(renderer.scene())) write_stamps(stamps_path(path), frames);
+  writer.finish();
+}
+
 }  // namespace
 
 bool needs_stamps(const core::simulation::Scene& scene) noexcept {
@@ -127,21 +144,17 @@ std::string stamps_path(const std::string& clip_path) {
   return std::filesystem::path(clip_path).replace_extension(".timestamps.csv").string();
 }
 
-void write_clip(const Renderer& renderer, const std::string& path, int crf, int n_threads, bool is_quiet) {
+void write_clip(const Renderer& renderer, const std::string& path, std::optional<int> crf, int n_threads,
+                bool is_quiet) {
   const auto& camera = renderer.scene().camera;
-  const std::vector<DeliveredFrame> frames = delivered_frames(renderer.scene());
   std::filesystem::remove(stamps_path(path));
-  drivers::ClipWriter writer(path, camera.width_px, camera.height_px, camera.rate_hz, crf);
-  FrameFarm farm(renderer, frames, n_threads);
-  Progress progress("simulate", frames.size(), "frames", is_quiet);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    writer.write(farm.wait_for_next());
-    farm.give_back();
-    progress.update(i + 1);
+  if (crf) {
+    drivers::ClipWriter writer(path, camera.width_px, camera.height_px, camera.rate_hz, *crf);
+    write_frames(renderer, path, writer, n_threads, is_quiet);
+  } else {
+    RawClip writer(path, camera.width_px, camera.height_px, camera.rate_hz);
+    write_frames(renderer, path, writer, n_threads, is_quiet);
   }
-  // Before the clip gets its name: it must never exist without the stamps that it needs.
-  if (needs_stamps(renderer.scene())) write_stamps(stamps_path(path), frames);
-  writer.finish();
 }
 
 }  // namespace tools

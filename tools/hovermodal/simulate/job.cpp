@@ -12,7 +12,6 @@
 namespace tools {
 namespace {
 
-using core::simulation::Scene;
 using Lens = core::simulation::LensParameters;
 
 std::pair<int, int> parse_size(const std::string& text) {
@@ -61,7 +60,7 @@ const char* SimulateJob::product() const noexcept {
     case Depth::kPixels:
       break;
   }
-  return "clip.mp4";
+  return crf ? "clip.mp4" : "clip.y4m";
 }
 
 core::CameraInfo SimulateJob::declared_camera() const {
@@ -99,7 +98,7 @@ SimulateJob make_job(const SimulateOptions& options) {
   tracks.points_per_region = options.points.value_or(tracks.points_per_region);
   core::simulation::validate(job.file.scene);
   job.depth = options.channels_only ? Depth::kChannels : options.tracks_only ? Depth::kTracks : Depth::kPixels;
-  job.crf = options.crf;
+  job.crf = options.raw ? std::nullopt : std::optional(options.crf);
   job.method = options.method;
   require_possible(job);
   return job;

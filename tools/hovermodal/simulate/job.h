@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::optional<double> duration_s, track_noise_px, track_loss;
   std::optional<int> points;
   bool tracks_only = false, channels_only = false, force = false, print_scene = false, help_scene = false;
+  bool raw = false;
   int crf = 20, threads = 0;
 };
 
@@ -27,7 +28,7 @@ struct SimulateOptions {
 struct SimulateJob {
   drivers::SceneFile file;
   Depth depth = Depth::kPixels;
-  int crf = 20;
+  std::optional<int> crf = 20;        // of a clip; without it: uncompressed
   std::string method = "hovermodal";  // in config.yaml
 
   [[nodiscard]] const core::simulation::Scene& scene() const noexcept { return file.scene; }

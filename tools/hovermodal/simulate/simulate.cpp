@@ -117,6 +117,7 @@ void add_product_options(drivers::Command& command, SimulateOptions& options) {
   command.option("--crf", options.crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
       .range(0, 51)
       .show_default();
+  command.flag("--raw", options.raw, "Write the clip uncompressed, as clip.y4m: 3.1 GB a minute at 1080p and 25 fps");
   command.option("--threads", options.threads, "Threads that draw; 0 = one per core").range(0, 256).show_default();
   command.flag("--force", options.force, "Make it again even if it exists");
 }

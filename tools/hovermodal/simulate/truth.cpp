@@ -1,5 +1,6 @@
 #include "tools/hovermodal/simulate/truth.h"
 
+#include <array>
 #include <bit>
 #include <complex>
 #include <cstdint>
@@ -44,8 +45,8 @@ Json rms_json(const SceneMotion& motion) {
   Json out{{"roof_relative_mm", motion.structure().roof_relative_rms_mm()},
            {"absolute_mm", std::move(absolute)},
            {"base_acceleration_mm_s2", motion.structure().base_acceleration_rms_mm_s2()}};
-  constexpr const char* kNames[] = {"camera_x_mm",    "camera_y_mm",     "camera_z_mm", "camera_pitch_rad",
-                                    "camera_yaw_rad", "camera_roll_rad", "zoom"};
+  constexpr std::array<const char*, 7> kNames{"camera_x_mm",    "camera_y_mm",     "camera_z_mm", "camera_pitch_rad",
+                                              "camera_yaw_rad", "camera_roll_rad", "zoom"};
   const auto camera = motion.camera().rms();
   for (std::size_t i = 0; i < camera.size(); ++i) out[kNames[i]] = camera[i];
   return out;
@@ -81,7 +82,7 @@ std::uint64_t hash_of(const core::simulation::RecordedMotion& flight) {
 
 std::string parameter_line(const SimulateJob& job) {
   Json line{{"renderer", kRendererVersion}, {"product", job.product()}, {"scene", drivers::scene_json(job.file)}};
-  if (job.depth == Depth::kPixels) line["crf"] = job.crf;
+  if (job.depth == Depth::kPixels && job.crf) line["crf"] = *job.crf;
   if (job.scene().flight) line["flight"] = hash_of(*job.scene().flight);
   return line.dump();
 }
