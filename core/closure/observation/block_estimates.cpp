@@ -7,24 +7,39 @@
 namespace core::closure {
 namespace {
 
-double product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Index block) {
+template <typename A, typename B>
+double product(const A& a, const B& b, Eigen::Index block) {
   const Eigen::Index from = block * a.cols() / BlockEstimates::kBlocks;
   const Eigen::Index count = (block + 1) * a.cols() / BlockEstimates::kBlocks - from;
-  return a.middleCols(from, count).cwiseProduct(b.middleCols(from, count)).sum();
+  return a.middleCols(from, count)
+      .template cast<double>()
+      .cwiseProduct(b.middleCols(from, count).template cast<double>())
+      .sum();
 }
 
-std::vector<const Eigen::MatrixXd*> pointers_to(std::span<const Eigen::MatrixXd> fields) {
-  std::vector<const Eigen::MatrixXd*> out;
-  for (const Eigen::MatrixXd& field : fields) out.push_back(&field);
+template <typename Field>
+std::vector<const Field*> pointers_to(std::span<const Field> fields) {
+  std::vector<const Field*> out;
+  for (const Field& field : fields) out.push_back(&field);
   return out;
 }
 
 }  // namespace
 
-BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual)
-    : BlockEstimates(pointers_to(fields), residual) {}
+BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual) {
+  add_blocks<Eigen::MatrixXd>(pointers_to(fields), residual);
+}
 
-BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd* const> fields, const Eigen::MatrixXd& residual) {
+BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXf> fields, const Eigen::MatrixXd& residual) {
+  add_blocks<Eigen::MatrixXf>(pointers_to(fields), residual);
+}
+
+BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXf* const> fields, const Eigen::MatrixXd& residual) {
+  add_blocks(fields, residual);
+}
+
+template <typename Field>
+void BlockEstimates::add_blocks(std::span<const Field* const> fields, const Eigen::MatrixXd& residual) {
   const auto n = static_cast<Eigen::Index>(fields.size());
   normal_sum_ = Eigen::MatrixXd::Zero(n, n);
   right_sum_ = Eigen::VectorXd::Zero(n);
@@ -32,7 +47,7 @@ BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd* const> fields, c
     Eigen::MatrixXd normal(n, n);
     Eigen::VectorXd right(n);
     for (Eigen::Index p = 0; p < n; ++p) {
-      const Eigen::MatrixXd& field = *fields[static_cast<std::size_t>(p)];
+      const Field& field = *fields[static_cast<std::size_t>(p)];
       right(p) = product(field, residual, block);
       for (Eigen::Index q = 0; q <= p; ++q)
         normal(p, q) = normal(q, p) = product(field, *fields[static_cast<std::size_t>(q)], block);

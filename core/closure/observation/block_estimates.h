@@ -12,8 +12,10 @@ class BlockEstimates {
  public:
   static constexpr Eigen::Index kBlocks = 10;
 
-  BlockEstimates(std::span<const Eigen::MatrixXd* const> fields, const Eigen::MatrixXd& residual);
   BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual);
+  // Fields in single precision, where many are kept; sums are in double precision.
+  BlockEstimates(std::span<const Eigen::MatrixXf> fields, const Eigen::MatrixXd& residual);
+  BlockEstimates(std::span<const Eigen::MatrixXf* const> fields, const Eigen::MatrixXd& residual);
 
   [[nodiscard]] Eigen::VectorXd values() const;
   // The larger, parameter by parameter, of two: that of white noise of unit variance, and that of the values without
@@ -26,6 +28,8 @@ class BlockEstimates {
   [[nodiscard]] double sigmas_from_zero() const;
 
  private:
+  template <typename Field>
+  void add_blocks(std::span<const Field* const> fields, const Eigen::MatrixXd& residual);
   [[nodiscard]] Eigen::MatrixXd without_each() const;  // constants x blocks
 
   std::vector<Eigen::MatrixXd> normal_;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,16 @@ TEST(BlockEstimates, WhiteNoiseIsAsItsFormulaAndASlowErrorIsNot) {
   const BlockEstimates changing(fields, residual);
   EXPECT_GT(std::sqrt(changing.covariance()(0, 0)), 5.0 * formula);
   EXPECT_LT(changing.sigmas_from_zero(), 3.0);
+}
+
+TEST(BlockEstimates, FieldsInSinglePrecisionGiveTheSameNumbers) {
+  const std::vector<Eigen::MatrixXd> fields{white(20, 2000, 5), white(20, 2000, 7)};
+  const Eigen::MatrixXd residual = white(20, 2000, 6) + 0.05 * fields[0] - 0.02 * fields[1];
+  const std::vector<Eigen::MatrixXf> kept{fields[0].cast<float>(), fields[1].cast<float>()};
+  const BlockEstimates all(fields, residual), single(std::span<const Eigen::MatrixXf>(kept), residual);
+  EXPECT_TRUE(single.values().isApprox(all.values(), 1e-6));
+  EXPECT_TRUE(single.covariance().isApprox(all.covariance(), 1e-6));
+  EXPECT_NEAR(single.held_out_gain(), all.held_out_gain(), 1e-6 * all.held_out_gain());
 }
 
 TEST(Rungs, TheirCosinesAreOrthonormalAndShareTheSpectrum) {
