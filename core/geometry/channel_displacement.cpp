@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/geometry/channel_layout.h"
@@ -17,8 +18,8 @@ namespace {
 // Lower bound of a point's sigma, set by rounding and optics; it bounds the weights.
 constexpr double kLeastSigmaPx = 0.003;
 
-// Spread of a static region's points in heights of the image from which on it witnesses the camera's rotation.
-constexpr double kLeastSpread = 0.1;
+// Least spread of a static region along the rows, in heights of the image, to witness the camera's rotation.
+constexpr double kLeastSpread = 0.07;
 
 // The keyframe as the declared camera, without corrections, would have seen it.
 TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame& keyframe) {
@@ -29,12 +30,6 @@ TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame
     if (std::isfinite(raw.u) && std::isfinite(raw.v)) p.u_px = raw.u, p.v_px = raw.v;
   }
   return out;
-}
-
-double mean_of(const std::vector<double>& values) noexcept {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
 }  // namespace
@@ -58,10 +53,9 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     weight_.push_back(1.0 / (sigma_px * sigma_px));
     const Vector2 ideal = config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px});
     keyframe_.push_back({ideal.u - config_.camera.cx, ideal.v - config_.camera.cy});
-    const TrackPoint& raw = raw_keyframe.points[i];
-    readout_share_.push_back(config_.readout.fraction(raw.u_px, raw.v_px));
+    readout_share_.push_back(config_.readout.fraction(raw_keyframe.points[i].u_px, raw_keyframe.points[i].v_px));
   }
-  position_ = motion_ = keyframe_;
+  position_ = motion_ = turned_ = keyframe_;
   config_.following = following_with(config_.following, config_.attitude.has_value());
   share_now_ = readout_share_;
   sigma_px_.assign(n, 0.0);
@@ -72,7 +66,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   if (!config_.adaptive_scale || config_.following == CameraFollowing::kDistance || config_.paper_method) return;
   if (config_.following == CameraFollowing::kSlow) {
     if (!config_.camera.calibrated() || n_witnesses() == 0) return;
-    slow_rotation_.emplace(config_.camera.fx, config_.camera.fy, centre_of(resting(keyframe_)));
+    slow_rotation_.emplace(config_.camera.fx, config_.camera.fy);
     t_turned_ns_ = keyframe.t_start_ns;
     return;
   }
@@ -81,7 +75,9 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   camera_motion_.emplace(make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px,
                                             keyframe, config_.plane));
   if (!turns_measured) return;
-  config_.attitude->delay_s += config_.readout.readout_s * mean_of(readout_share_);  // to the instant of the state
+  const double mean_share = std::accumulate(readout_share_.begin(), readout_share_.end(), 0.0) /
+                            static_cast<double>(std::max<std::size_t>(n, 1));
+  config_.attitude->delay_s += config_.readout.readout_s * mean_share;  // to the instant of the state
   attitude_.emplace(*config_.attitude);
   attitude_->before(*camera_motion_, static_cast<double>(keyframe.t_start_ns) * 1e-9);
 }
@@ -97,7 +93,8 @@ std::vector<RegionPoints> ChannelDisplacement::region_points() const {
     }
     const bool is_late = weight > 0.0 && !config_.paper_method;
     out.push_back({range.size(), is_late ? config_.readout.readout_s * share / weight : 0.0,
-                   spread_px({keyframe_.data() + range.begin, range.size()})});
+                   spread_of_turn_px({keyframe_.data() + range.begin, range.size()},
+                                     {readout_share_.data() + range.begin, range.size()})});
   }
   return out;
 }
@@ -140,13 +137,14 @@ DisplacementSample ChannelDisplacement::sample_prototype() const {
 void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
   for (std::size_t i = 0; i < keyframe_.size(); ++i) {
     seen_[i] = 0;
+    if (slow_rotation_) turned_[i] = slow_rotation_->turned(keyframe_[i], after_resting_s(i));
     if (i >= tracks.points.size()) continue;
     const TrackPoint& point = tracks.points[i];
     if (!point.seen || !std::isfinite(point.u_px) || !std::isfinite(point.v_px)) continue;
     Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
     if (corrects_places_) ideal = config_.places.corrected(ideal);
-    position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
-    if (slow_rotation_) position_[i] = slow_rotation_->undone(position_[i], keyframe_[i]);
+    const Vector2 by{turned_[i].u - keyframe_[i].u, turned_[i].v - keyframe_[i].v};
+    position_[i] = {ideal.u - config_.camera.cx - by.u, ideal.v - config_.camera.cy - by.v};
     share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
     const bool stated = std::isfinite(point.sigma_px) && point.sigma_px >= 0.0;
     sigma_px_[i] = stated ? point.sigma_px : 1.0 / std::sqrt(weight_[i]);
@@ -266,8 +264,9 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
 void ChannelDisplacement::follow_what_rests(DisplacementSample& out) noexcept {
   if (n_witnesses() == 0) return;
   const std::uint16_t region = spectra_.back().region;
-  const double turn_rad = follow_resting_region({resting(position_), resting(keyframe_), resting(seen_)},
-                                                config_.inlier_sigma_px, resting(motion_), resting(inlier_));
+  const RestingPoints points{resting(position_), resting(keyframe_), resting(turned_), resting(seen_),
+                             resting(readout_share_)};
+  const double turn_rad = follow_resting_region(points, config_.inlier_sigma_px, resting(motion_), resting(inlier_));
   const Average mean = average(region);
   for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
     const ChannelInfo& witness = spectra_[channels_.size() + w];
@@ -279,7 +278,8 @@ void ChannelDisplacement::follow_what_rests(DisplacementSample& out) noexcept {
   const double dt_s = 1e-9 * static_cast<double>(out.t_start_ns - t_turned_ns_);
   if (!mean.enough || !(dt_s > 0.0)) return;
   const bool shows_turn = witnesses_turn(spectra_.back());
-  slow_rotation_->add({mean.mean_px, shows_turn ? turn_rad : 0.0}, dt_s);
+  const Eigen::Matrix3d shown = shown_rotation(points, resting(inlier_), config_.camera.fx, config_.camera.fy);
+  slow_rotation_->add({mean.mean_px, shows_turn ? turn_rad : 0.0}, shown, dt_s);
   t_turned_ns_ = out.t_start_ns;
 }
 

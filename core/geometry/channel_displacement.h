@@ -96,6 +96,10 @@ class ChannelDisplacement {
   void make_channels();
   void follow_what_rests(DisplacementSample& out) noexcept;
   void place_points(const TrackFrame& tracks) noexcept;
+  // From the instant of the static region to that of the point's row, s.
+  [[nodiscard]] double after_resting_s(std::size_t point) const noexcept {
+    return config_.readout.readout_s * share_now_[point] - spectra_.back().row_delay_s;
+  }
   [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
   // Largest mean motion of a static region, after removal of the camera's.
   [[nodiscard]] double largest_resting_px() const noexcept;
@@ -136,6 +140,7 @@ class ChannelDisplacement {
   std::optional<CameraMotionEstimator> camera_motion_;  // empty: scale only, paper, or a static camera
   std::optional<AttitudePrior> attitude_;
   std::optional<SlowRotation> slow_rotation_;  // removed from position_
+  std::vector<Vector2> turned_;                // what it makes of keyframe_
   std::int64_t t_turned_ns_ = 0;               // frame of its last update
   std::vector<Vector2> position_, motion_;     // undistorted px from the principal point; motion since the keyframe
                                                // without the camera's motion, keyframe px

@@ -17,13 +17,6 @@ Vector2 centre_of(std::span<const Vector2> points) noexcept {
   return centre;
 }
 
-double spread_px(std::span<const Vector2> points) noexcept {
-  const auto [u, v] = centre_of(points);
-  double squares = 0.0;
-  for (const Vector2& p : points) squares += (p.u - u) * (p.u - u) + (p.v - v) * (p.v - v);
-  return points.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(points.size()));
-}
-
 std::string_view without_axis(std::string_view channel) noexcept {
   if (channel.ends_with(".u") || channel.ends_with(".v")) channel.remove_suffix(2);
   return channel;

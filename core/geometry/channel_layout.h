@@ -15,12 +15,11 @@ namespace core {
 struct RegionPoints {
   std::size_t n = 0;
   double delay_s = 0.0;    // after the time stamp: weighted mean over the points' rows
-  double spread_px = 0.0;  // rms distance of the points from their centre
+  double spread_px = 0.0;  // spread_of_turn_px() of the points
 };
 
-// Both: 0 without points.
+// 0 without points.
 [[nodiscard]] Vector2 centre_of(std::span<const Vector2> points) noexcept;
-[[nodiscard]] double spread_px(std::span<const Vector2> points) noexcept;
 
 // Channels of the structure and base regions, in their order: one along the region's axis, or two (u, v).
 [[nodiscard]] std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions,

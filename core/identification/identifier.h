@@ -59,7 +59,8 @@ class Identifier {
                                            FieldShapes* field) const;
   void identify_modes(const CpsdSums& sums, const std::vector<ChannelRecord>& records, FieldShapes* field,
                       ModalEstimate& estimate) const;
-  // Replaces the modes that the camera shares (SharedMotion) by those of the motion relative to the base.
+  // Where the camera shares a mode (SharedMotion), replaces the modes by those of the motion relative to the base: the
+  // region at rest, an input, is then coherent with the force, and what it explains away distorts damping and shapes.
   void identify_shared(const CpsdSums& sums, const std::vector<ChannelRecord>& records, ModalEstimate& estimate) const;
   [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part, FieldShapes* field) const;
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums, FieldShapes* field) const;

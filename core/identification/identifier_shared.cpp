@@ -1,4 +1,4 @@
-// Modes that a gust excites which moves the camera, too.
+// Modes of a structure under gusts that move the camera, too.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,6 +13,8 @@
 namespace core {
 
 namespace {
+
+constexpr double kSameFrequency = 0.02;  // relative
 
 // Modes of an estimate with the index that the poles of its diagram name; -1: not of that diagram.
 struct Listed {
@@ -47,6 +49,8 @@ void list_anew(std::vector<Listed> structural, std::vector<Listed> rejected, Mod
   }
 }
 
+bool is_same(double a_hz, double b_hz) { return std::abs(a_hz - b_hz) < kSameFrequency * b_hz; }
+
 template <class T>
 void insert_zero(std::vector<T>& values, int at) {
   if (!values.empty()) values.insert(values.begin() + at, T{});
@@ -59,6 +63,33 @@ std::vector<std::size_t> relative_channels(const std::vector<ChannelInfo>& chann
     if (!channels[c].is_base && (!channels[c].is_witness || witnesses_turn(channels[c]))) out.push_back(c);
   }
   return out;
+}
+
+// A mode of the relative motion replaces the one of the same frequency, and is taken where the camera shares it. A
+// shared mode that the relative motion does not have is the camera's.
+template <class IsShared>
+void prefer_relative(std::vector<Mode> relative, const IsShared& is_shared, int base, ModalEstimate& estimate) {
+  std::vector<Listed> structural, rejected = listed(estimate.rejected, static_cast<int>(estimate.modes.size()));
+  std::vector<double> taken_hz;
+  for (Mode& mode : relative) {
+    const auto is_this = [&](const Mode& one) { return is_same(one.frequency_hz, mode.frequency_hz); };
+    if (!is_shared(mode) && std::none_of(estimate.modes.begin(), estimate.modes.end(), is_this)) continue;
+    insert_zero(mode.shape, base), insert_zero(mode.shape_std, base);
+    mode.reason += "; relative to the base, because the camera moves with the structure";
+    taken_hz.push_back(mode.frequency_hz);
+    structural.push_back({std::move(mode), -1});
+  }
+  for (Listed& one : listed(estimate.modes, 0)) {
+    const auto is_this = [&](double hz) { return is_same(hz, one.mode.frequency_hz); };
+    if (!is_shared(one.mode) && std::none_of(taken_hz.begin(), taken_hz.end(), is_this)) {
+      structural.push_back(std::move(one));
+      continue;
+    }
+    set(one.mode, Verdict::kInputPeak,
+        "the camera moves with the structure: the modes here are those of the motion relative to the base");
+    rejected.push_back(std::move(one));
+  }
+  list_anew(std::move(structural), std::move(rejected), estimate);
 }
 
 }  // namespace
@@ -85,23 +116,10 @@ void Identifier::identify_shared(const CpsdSums& sums, const std::vector<Channel
   with_channels(kept).identify_modes(select_channels(relative, kept), kept_records, nullptr, of_relative);
   if (of_relative.poles.empty()) return;
 
-  std::vector<Listed> structural, rejected = listed(estimate.rejected, static_cast<int>(estimate.modes.size()));
-  for (Listed& one : listed(estimate.modes, 0)) {
-    if (!shared.at(one.mode.apparent_hz)) {
-      structural.push_back(std::move(one));
-      continue;
-    }
-    set(one.mode, Verdict::kInputPeak,
-        "moves with the camera: the modes here are those of the motion relative to the base");
-    rejected.push_back(std::move(one));
-  }
-  for (Mode& mode : of_relative.modes) {
-    if (!shared.at(mode.apparent_hz)) continue;
-    insert_zero(mode.shape, base), insert_zero(mode.shape_std, base);
-    mode.reason += "; relative to the base, because the camera moves with it";
-    structural.push_back({std::move(mode), -1});
-  }
-  list_anew(std::move(structural), std::move(rejected), estimate);
+  const auto is_shared = [&](const Mode& mode) { return shared.at(mode.apparent_hz); };
+  const bool any_shared = std::any_of(estimate.modes.begin(), estimate.modes.end(), is_shared) ||
+                          std::any_of(of_relative.modes.begin(), of_relative.modes.end(), is_shared);
+  if (any_shared) prefer_relative(std::move(of_relative.modes), is_shared, base, estimate);
 }
 
 }  // namespace core

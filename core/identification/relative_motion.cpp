@@ -16,6 +16,8 @@ using Complex = std::complex<double>;
 constexpr double kSameAxis = 0.99;
 constexpr double kLeastCoherence = 0.6, kLeastGain = 0.6;
 constexpr double kByChance = 1e-3;
+constexpr double kQuietPart = 0.25;  // share of the bins in which a region at rest is taken to show noise
+constexpr double kAboveRestNoise = 4.0;
 
 std::size_t pair_of(const CpsdSums& sums, int i, int j) {
   return static_cast<std::size_t>(CpsdSums::pair_index(std::min(i, j), std::max(i, j), sums.n_channels));
@@ -29,6 +31,16 @@ Complex cross_of(const CpsdSums& sums, int bin, int i, int j) {
 // The coherence of n independent segments exceeds c by chance with probability (1 - c)^(n - 1).
 double least_coherence_of(double n_segments) {
   return n_segments > 1.0 ? std::max(kLeastCoherence, 1.0 - std::pow(kByChance, 1.0 / (n_segments - 1.0))) : 1.0;
+}
+
+double noise_of(const CpsdSums& sums, int witness) {
+  std::vector<double> power;
+  power.reserve(static_cast<std::size_t>(sums.n_bins()));
+  for (int k = 1; k < sums.n_bins(); ++k) power.push_back(cross_of(sums, k, witness, witness).real());
+  if (power.empty()) return 0.0;
+  const auto at = power.begin() + static_cast<std::ptrdiff_t>(kQuietPart * static_cast<double>(power.size()));
+  std::nth_element(power.begin(), at, power.end());
+  return *at;
 }
 
 class RelativeSums {
@@ -101,7 +113,10 @@ SharedMotion::SharedMotion(const CpsdSums& sums, const CpsdSums& relative, const
       relative_(relative),
       channels_(channels),
       base_(base),
-      least_coherence_(least_coherence_of(sums.weight.effective())) {}
+      least_coherence_(least_coherence_of(sums.weight.effective())) {
+  for (int c = 0; c < sums.n_channels; ++c)
+    noise_.push_back(channels[static_cast<std::size_t>(c)].is_witness ? noise_of(sums, c) : 0.0);
+}
 
 // Sums of three bins, because a Hann window spreads a line over three.
 bool SharedMotion::in_bin(int bin) const {
@@ -120,7 +135,8 @@ bool SharedMotion::in_bin(int bin) const {
       double rest = 0.0;
       for (int k = bin - 1; k <= bin + 1; ++k)
         cross += cross_of(relative_, k, c, w), rest += cross_of(sums_, k, w, w).real();
-      if (power > 0.0 && rest > 0.0) coherence = std::max(coherence, std::norm(cross) / (power * rest));
+      const bool moves = rest > kAboveRestNoise * 3.0 * noise_[static_cast<std::size_t>(w)];
+      if (power > 0.0 && moves) coherence = std::max(coherence, std::norm(cross) / (power * rest));
     }
   }
   return coherence > least_coherence_ && largest > kLeastGain * kLeastGain * camera;

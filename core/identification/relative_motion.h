@@ -16,7 +16,8 @@ namespace core {
 
 // Whether what moves the camera moves the structure, too, at an apparent frequency: a gust that both feel. Then the
 // motion relative to the base is coherent with that of a region at rest, beyond what chance does once in a thousand,
-// and is not small beside the camera's own. Given the region at rest as an input, such a mode is explained away.
+// and is not small beside the camera's own; the region's motion stands out of its noise, which lost frames make
+// coherent with everything. Given the region at rest as an input, such a mode is explained away.
 class SharedMotion {
  public:
   // relative: of relative_to_base(sums, channels, base). Borrows its arguments.
@@ -32,6 +33,7 @@ class SharedMotion {
   const std::vector<ChannelInfo>& channels_;
   int base_;
   double least_coherence_;
+  std::vector<double> noise_;  // power of a bin, per channel; 0: no witness
 };
 
 }  // namespace core

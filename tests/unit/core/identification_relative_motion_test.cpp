@@ -125,6 +125,29 @@ TEST(SharedMotion, IsWhatTheForceOfTheGustDoesToTheStructure) {
   }
 }
 
+// Frames that all channels lack make the noise of a region at rest coherent with the channels' at any frequency.
+TEST(SharedMotion, IsNoneWhereTheRegionAtRestShowsItsNoise) {
+  CpsdSums sums = Gust{false}.spectra();
+  const std::vector<ChannelInfo> channels = Gust::channels();
+  const auto at = [&](int bin, int i, int j) {
+    return static_cast<std::size_t>(bin) * static_cast<std::size_t>(sums.n_pairs()) +
+           static_cast<std::size_t>(CpsdSums::pair_index(i, j, sums.n_channels));
+  };
+  const auto follow_floor = [&](double hz, double factor) {  // the region at rest moves as the upper floor does
+    const int bin = static_cast<int>(std::lround(hz * sums.n_fft / sums.rate_hz));
+    for (int k = bin - 1; k <= bin + 1; ++k) {
+      sums.data_sum[at(k, 5, 5)] *= factor;
+      const double both = std::sqrt(sums.data_sum[at(k, 4, 4)].real() * sums.data_sum[at(k, 5, 5)].real());
+      sums.data_sum[at(k, 4, 5)] = 0.95 * both;
+    }
+  };
+  follow_floor(11.0, 1.0);
+  const CpsdSums in_noise = sums;
+  EXPECT_FALSE(SharedMotion(in_noise, in_noise, channels, 0).at(11.0));
+  follow_floor(11.0, 10.0);
+  EXPECT_TRUE(SharedMotion(sums, sums, channels, 0).at(11.0));
+}
+
 TEST(SharedMotion, AModeUnderAGustThatMovesTheCameraIsFound) {
   const ModalEstimate estimate = Identifier({}, Gust::channels()).identify(Gust{true}.spectra());
   const Mode *first = structural_at(estimate, 1.7), *second = structural_at(estimate, 5.0);
@@ -136,6 +159,7 @@ TEST(SharedMotion, AModeUnderAGustThatMovesTheCameraIsFound) {
   EXPECT_EQ(first->shape[0], 0.0);
   for (std::size_t c = 1; c < 5; ++c) EXPECT_NEAR(first->shape[c].real(), 0.25 * static_cast<double>(c), 0.03);
   EXPECT_TRUE(first->frequency_std_hz.has_value());
+  EXPECT_NE(second->reason.find("relative to the base"), std::string::npos) << "as every mode beside a shared one";
   const int n_listed = static_cast<int>(estimate.modes.size() + estimate.rejected.size());
   for (const StabilisationPole& pole : estimate.poles) {
     ASSERT_LT(pole.i_line, n_listed);
