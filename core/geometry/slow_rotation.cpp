@@ -17,6 +17,7 @@ Vector2 SlowRotation::turned(const Vector2& keyframe, double late_s) const noexc
 void SlowRotation::add(const RestingMotion& motion, const Eigen::Matrix3d& shown, double dt_s) noexcept {
   const Eigen::Vector3d left =
       shown.inverse() * Eigen::Vector3d(motion.moved_px.u / fx_, motion.moved_px.v / fy_, motion.turn_rad);
+  if (!left.allFinite()) return;
   const Eigen::Vector3d whole = pole_[1] + left;
   const double share = 1.0 - std::exp(-kTwoPi * kSlow_hz * dt_s);
   pole_[0] += share * (whole - pole_[0]);

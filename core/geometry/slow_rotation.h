@@ -32,7 +32,7 @@ class SlowRotation {
   // of the static region to that of the point's row. The camera turns on meanwhile: what is removed of a gust would
   // otherwise lack the delays that the gust itself has.
   [[nodiscard]] Vector2 turned(const Vector2& keyframe, double late_s) const noexcept;
-  // shown: shown_rotation() of the region after its removal.
+  // shown: shown_rotation() of the region after its removal. Points that do not determine the rotation are ignored.
   void add(const RestingMotion& motion, const Eigen::Matrix3d& shown, double dt_s) noexcept;
   [[nodiscard]] const Eigen::Vector3d& rotation_rad() const noexcept { return pole_[1]; }
 

@@ -152,6 +152,18 @@ TEST(SlowRotation, GoesOnUntilTheRowIsRead) {
               kFocal_px * kRate_rad_s * kLate_s * (1.0 + 0.1 * 0.1), 0.001);
 }
 
+TEST(SlowRotation, IgnoresPointsThatDoNotDetermineIt) {
+  constexpr double kFocal_px = 1000.0;
+  SlowRotation rotation(kFocal_px, kFocal_px);
+  const std::vector<Vector2> one_place(4, {100.0, 50.0});
+  const std::vector<double> share(one_place.size(), 0.5);
+  const std::vector<std::uint8_t> counts(one_place.size(), 1);
+  const RestingPoints points{one_place, one_place, one_place, counts, share};
+  rotation.add({{3.0, 1.0}, 0.0}, shown_rotation(points, counts, kFocal_px, kFocal_px), 0.04);
+  EXPECT_EQ(rotation.rotation_rad().norm(), 0.0);
+  EXPECT_EQ(rotation.turned({100.0, 50.0}, 0.01).u, 100.0);
+}
+
 struct Sheared {
   double turn_rad = 0.0, grown = 0.0;
 };
