@@ -44,6 +44,7 @@ void keep_freed_memory() noexcept {
 void give_back_large_blocks() noexcept {
   constexpr int kLargeBytes = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargeBytes);
+  mallopt(M_ARENA_MAX, 2);
 }
 
 // A separate function, so that its stack frame is released on return.

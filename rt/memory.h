@@ -14,7 +14,8 @@ namespace rt {
 void keep_freed_memory() noexcept;
 
 // The opposite: blocks of a megabyte or more come from new pages, which go back to the system when they are freed;
-// otherwise the heap keeps them, in pieces, wherever a thread has once used much memory. Process-wide.
+// otherwise the heap keeps them, in pieces, wherever a thread has once used much memory. All threads share two heaps:
+// each of its own would keep what its thread once needed. Process-wide; call it before other threads allocate.
 void give_back_large_blocks() noexcept;
 
 // Touches `n_bytes` of the calling thread's stack, so that its first deep call causes no page fault; fewer if the stack

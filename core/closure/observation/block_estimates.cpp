@@ -11,10 +11,7 @@ template <typename A, typename B>
 double product(const A& a, const B& b, Eigen::Index block) {
   const Eigen::Index from = block * a.cols() / BlockEstimates::kBlocks;
   const Eigen::Index count = (block + 1) * a.cols() / BlockEstimates::kBlocks - from;
-  return a.middleCols(from, count)
-      .template cast<double>()
-      .cwiseProduct(b.middleCols(from, count).template cast<double>())
-      .sum();
+  return a.middleCols(from, count).cwiseProduct(b.middleCols(from, count)).sum();
 }
 
 template <typename Field>
@@ -30,11 +27,11 @@ BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Ei
   add_blocks<Eigen::MatrixXd>(pointers_to(fields), residual);
 }
 
-BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXf> fields, const Eigen::MatrixXd& residual) {
-  add_blocks<Eigen::MatrixXf>(pointers_to(fields), residual);
+BlockEstimates::BlockEstimates(std::span<const CompactField> fields, const Eigen::MatrixXd& residual) {
+  add_blocks<CompactField>(pointers_to(fields), residual);
 }
 
-BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXf* const> fields, const Eigen::MatrixXd& residual) {
+BlockEstimates::BlockEstimates(std::span<const CompactField* const> fields, const Eigen::MatrixXd& residual) {
   add_blocks(fields, residual);
 }
 

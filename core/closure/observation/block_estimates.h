@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/closure/observation/compact_field.h"
+
 namespace core::closure {
 
 // Constants of a record by least squares: what multiplies each of these fields in a residual (2 points x frames, in
@@ -13,9 +15,8 @@ class BlockEstimates {
   static constexpr Eigen::Index kBlocks = 10;
 
   BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual);
-  // Fields in single precision, where many are kept; sums are in double precision.
-  BlockEstimates(std::span<const Eigen::MatrixXf> fields, const Eigen::MatrixXd& residual);
-  BlockEstimates(std::span<const Eigen::MatrixXf* const> fields, const Eigen::MatrixXd& residual);
+  BlockEstimates(std::span<const CompactField> fields, const Eigen::MatrixXd& residual);
+  BlockEstimates(std::span<const CompactField* const> fields, const Eigen::MatrixXd& residual);
 
   [[nodiscard]] Eigen::VectorXd values() const;
   // The larger, parameter by parameter, of two: that of white noise of unit variance, and that of the values without

@@ -13,9 +13,8 @@ namespace core::closure {
 namespace {
 
 constexpr Eigen::Index kParts = 5;
-constexpr std::size_t kOrdersAtOnce = 64;  // all cosines of a band take four times as much memory as the residual
-constexpr Eigen::Index kSharedBins = 4;    // bins of the padded spectrum that share noise: in one part
-constexpr double kMostRungs = 0.6;         // of the degrees of freedom: more is a pattern of all rungs
+constexpr Eigen::Index kSharedBins = 4;  // bins of the padded spectrum that share noise: in one part
+constexpr double kMostRungs = 0.6;       // of the degrees of freedom: more is a pattern of all rungs
 
 Eigen::MatrixXcd one_sided(const Eigen::MatrixXd& residual) {
   const int n_fft = row_fft_size(residual);
@@ -94,8 +93,8 @@ double HeldOut::share_of(RungSet band) const {
 double HeldOut::squares(const Eigen::MatrixXd& residual) const {
   const std::span<const Eigen::Index> orders(orders_);
   Eigen::MatrixXd low = Eigen::MatrixXd::Zero(residual.rows(), static_cast<Eigen::Index>(orders.size()));
-  for (std::size_t from = 0; from < orders.size(); from += kOrdersAtOnce) {
-    const std::size_t count = std::min(kOrdersAtOnce, orders.size() - from);
+  for (std::size_t from = 0; from < orders.size(); from += Rungs::kOrdersAtOnce) {
+    const std::size_t count = std::min(Rungs::kOrdersAtOnce, orders.size() - from);
     add_product(low.middleCols(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(count)), 1.0, residual,
                 Rungs::cosines(residual.cols(), orders.subspan(from, count)));
   }

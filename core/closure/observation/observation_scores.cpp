@@ -131,9 +131,9 @@ Objection ObservationScores::refusal(const EffectCandidate& candidate, double ga
 
 // Of all constants that are still open, together: those of a lens share what one pattern explains.
 double ObservationScores::constants_gain(const TestedResidual& tested) const {
-  std::vector<const Eigen::MatrixXf*> fields;
+  std::vector<const CompactField*> fields;
   for (const auto& candidate : prepared_) {
-    for (const Eigen::MatrixXf& field : candidate->constant_fields()) fields.push_back(&field);
+    for (const CompactField& field : candidate->constant_fields()) fields.push_back(&field);
   }
   return fields.empty() ? 0.0 : BlockEstimates(fields, fit_.view().held_out.errors(tested.values)).held_out_gain();
 }

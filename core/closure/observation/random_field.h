@@ -47,7 +47,6 @@ class RandomField {
   };
   struct OfLength {
     double length_px = 0.0;
-    Eigen::MatrixXd covariance;  // whitened, of a field of 1 px rms
     Components above;
     std::optional<Components> within;  // the band of the model's added columns; empty: it has none
   };
@@ -55,6 +54,8 @@ class RandomField {
     double variance = 0.0, deviance = 0.0, information = 0.0;
   };
 
+  // Whitened, of a field of 1 px rms.
+  [[nodiscard]] static Eigen::MatrixXd covariance(const PointMotionModel& model, double length_px);
   [[nodiscard]] static Estimate estimate(const Eigen::VectorXd& own, const Eigen::VectorXd& squares, double n);
   [[nodiscard]] const Components& components(const OfLength& of, std::size_t rung) const;
   [[nodiscard]] bool is_within(std::size_t rung) const noexcept { return within_ && holds(fit_.model.band(), rung); }

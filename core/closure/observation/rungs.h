@@ -15,6 +15,7 @@ inline constexpr RungSet kAllRungs = ~RungSet{0};
 class Rungs {
  public:
   static constexpr std::size_t kMost = 63;
+  static constexpr std::size_t kOrdersAtOnce = 64;  // all cosines of a band take four times a residual's memory
 
   explicit Rungs(double rate_hz);
 

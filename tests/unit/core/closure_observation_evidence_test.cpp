@@ -74,14 +74,23 @@ TEST(BlockEstimates, WhiteNoiseIsAsItsFormulaAndASlowErrorIsNot) {
   EXPECT_LT(changing.sigmas_from_zero(), 3.0);
 }
 
-TEST(BlockEstimates, FieldsInSinglePrecisionGiveTheSameNumbers) {
+TEST(BlockEstimates, CompactFieldsGiveTheSameNumbers) {
   const std::vector<Eigen::MatrixXd> fields{white(20, 2000, 5), white(20, 2000, 7)};
   const Eigen::MatrixXd residual = white(20, 2000, 6) + 0.05 * fields[0] - 0.02 * fields[1];
-  const std::vector<Eigen::MatrixXf> kept{fields[0].cast<float>(), fields[1].cast<float>()};
-  const BlockEstimates all(fields, residual), single(std::span<const Eigen::MatrixXf>(kept), residual);
-  EXPECT_TRUE(single.values().isApprox(all.values(), 1e-6));
-  EXPECT_TRUE(single.covariance().isApprox(all.covariance(), 1e-6));
-  EXPECT_NEAR(single.held_out_gain(), all.held_out_gain(), 1e-6 * all.held_out_gain());
+  const std::vector<CompactField> kept{CompactField(fields[0]), CompactField(fields[1])};
+  const BlockEstimates all(fields, residual), compact(std::span<const CompactField>(kept), residual);
+  EXPECT_TRUE(compact.values().isApprox(all.values(), 2e-5));
+  EXPECT_TRUE(compact.covariance().isApprox(all.covariance(), 1e-4));
+  EXPECT_NEAR(compact.held_out_gain(), all.held_out_gain(), 2e-5 * all.held_out_gain());
+}
+
+TEST(CompactField, IsOffByHalfAStepAtMost) {
+  const Eigen::MatrixXd field = 1e-4 * white(20, 300, 5);
+  const CompactField compact(field);
+  ASSERT_EQ(compact.cols(), field.cols());
+  const double off = (compact.middleCols(0, 300) - field).cwiseAbs().maxCoeff();
+  EXPECT_LE(off, 0.5001 * field.cwiseAbs().maxCoeff() / 32767.0);
+  EXPECT_EQ(CompactField(Eigen::MatrixXd::Zero(4, 5)).middleCols(1, 3).sum(), 0.0);
 }
 
 TEST(Rungs, TheirCosinesAreOrthonormalAndShareTheSpectrum) {

@@ -72,18 +72,18 @@ class ConstantCandidate final : public EffectCandidate {
         effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit);
     sigmas_ = BlockEstimates(fields, fit.model.residual()).sigmas_from_zero();
     for (Eigen::MatrixXd& field : fields) {
-      error_fields_.emplace_back(fit.held_out.errors(field).cast<float>());
+      error_fields_.emplace_back(fit.held_out.errors(field));
       field.resize(0, 0);
     }
   }
   // In squares of points left out, as the scores of patterns.
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return BlockEstimates(std::span<const Eigen::MatrixXf>(error_fields_), fit_.held_out.errors(residual.values))
+    return BlockEstimates(std::span<const CompactField>(error_fields_), fit_.held_out.errors(residual.values))
         .held_out_gain();
   }
   double find(const TestedResidual& residual) override { return gain(residual); }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
-  [[nodiscard]] std::span<const Eigen::MatrixXf> constant_fields() const override { return error_fields_; }
+  [[nodiscard]] std::span<const CompactField> constant_fields() const override { return error_fields_; }
   [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (sigmas_ > kLeastSigmas) return {};
     return {"within three of its own standard deviations of zero", true};
@@ -95,8 +95,8 @@ class ConstantCandidate final : public EffectCandidate {
  private:
   const ConstantEffect& effect_;
   const FitView fit_;
-  double sigmas_ = 0.0;                        // from zero, of the fit's own residual
-  std::vector<Eigen::MatrixXf> error_fields_;  // errors of points left out of the derivatives
+  double sigmas_ = 0.0;                     // from zero, of the fit's own residual
+  std::vector<CompactField> error_fields_;  // errors of points left out of the derivatives
 };
 
 }  // namespace
