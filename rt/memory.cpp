@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
+#include <system_error>
 
 namespace rt {
 
@@ -27,29 +27,34 @@ std::size_t stack_left() noexcept {
   return here > end ? here - end : 0;
 }
 
+// Both callers run before other threads allocate.
+void set_heap(int parameter, int value) noexcept {
+  mallopt(parameter, value);  // NOLINT(concurrency-mt-unsafe)
+}
+
 }  // namespace
 
 std::string lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
-  return std::string("locking memory refused (") + std::strerror(errno) +
+  return std::string("locking memory refused (") + std::system_category().message(errno) +
          "): grant CAP_IPC_LOCK or raise RLIMIT_MEMLOCK";
 }
 
 void keep_freed_memory() noexcept {
-  mallopt(M_TRIM_THRESHOLD, -1);
-  mallopt(M_MMAP_MAX, 0);
+  set_heap(M_TRIM_THRESHOLD, -1);
+  set_heap(M_MMAP_MAX, 0);
 }
 
 // Setting it also ends its adaptation: one freed block of 32 MB would leave all smaller ones to the heap.
 void give_back_large_blocks() noexcept {
   constexpr int kLargeBytes = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargeBytes);
-  mallopt(M_ARENA_MAX, 2);
+  set_heap(M_MMAP_THRESHOLD, kLargeBytes);
+  set_heap(M_ARENA_MAX, 2);
 }
 
 // A separate function, so that its stack frame is released on return.
 [[gnu::noinline]] void prefault_stack(std::size_t n_bytes) noexcept {
-  constexpr std::size_t kLeastPage = 4096, kSpare = 32 * 1024;
+  constexpr std::size_t kLeastPage = 4096, kSpare = std::size_t{32} * 1024;
   const std::size_t left = stack_left();
   n_bytes = std::min(n_bytes, left > kSpare ? left - kSpare : 0);
   if (n_bytes == 0) return;
