@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <complex>
-#include <span>
 
 #include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
@@ -91,13 +90,10 @@ double HeldOut::share_of(RungSet band) const {
 }
 
 double HeldOut::squares(const Eigen::MatrixXd& residual) const {
-  const std::span<const Eigen::Index> orders(orders_);
-  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(residual.rows(), static_cast<Eigen::Index>(orders.size()));
-  for (std::size_t from = 0; from < orders.size(); from += Rungs::kOrdersAtOnce) {
-    const std::size_t count = std::min(Rungs::kOrdersAtOnce, orders.size() - from);
-    add_product(low.middleCols(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(count)), 1.0, residual,
-                Rungs::cosines(residual.cols(), orders.subspan(from, count)));
-  }
+  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(residual.rows(), static_cast<Eigen::Index>(orders_.size()));
+  Rungs::for_cosines(residual.cols(), orders_, [&](Eigen::Index first, const Eigen::MatrixXd& cosines) {
+    add_product(low.middleCols(first, cosines.cols()), 1.0, residual, cosines);
+  });
   const Eigen::MatrixXd within = gram(low);
   return high_.squares(gram(residual) - within) + low_.squares(within);
 }

@@ -121,7 +121,7 @@ Objection ObservationScores::refusal(const EffectCandidate& candidate, double ga
   std::string small = smallness(candidate, gain, unexplained.above_noise);
   if (!small.empty()) return {std::move(small)};
   const double free_gain = candidate.free_gain(tested).value_or(unexplained.by_learned);
-  const double family_gain = candidate.free_gain(tested) ? gain : std::max(gain, constants_gain(tested));
+  const double family_gain = candidate.free_gain(tested) ? gain : std::max(gain, unexplained.by_constants);
   if (family_gain < kOfLearned * free_gain || gain < kOfFamily * free_gain) {
     return {"a projection of another effect: it explains " + std::to_string(std::lround(100.0 * gain / free_gain)) +
             " % of what the best learned pattern explains"};
@@ -150,7 +150,8 @@ std::vector<CandidateScore> ObservationScores::score() {
   const double left = left_squares(), squares = left + 2.0 * freedom;
   const PatternGain learned = view.held_out.of_learned(moments);
   const bool is_material = learned.gain > material_of(learned.band, view, kLearnedBar) * n_values;
-  const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0};
+  const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0,
+                                constants_gain(tested)};
   const auto scored = [&](std::size_t i, EffectId id, std::string name) {
     CandidateScore s;
     s.id = std::move(id), s.effect = std::move(name);
@@ -169,7 +170,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     is_other_cause_[i] = objection.is_other_cause ? 1 : 0;
     out.push_back(std::move(s));
   }
-  refuse_unspecific(out, tested);
+  refuse_unspecific(out, unexplained.by_constants);
   if (prepared_.size() > named.size()) {
     const bool is_explained =
         std::any_of(out.begin(), out.end(), [](const CandidateScore& other) { return other.refusal.empty(); });
@@ -185,10 +186,10 @@ std::vector<CandidateScore> ObservationScores::score() {
   return out;
 }
 
-void ObservationScores::refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) const {
+void ObservationScores::refuse_unspecific(std::vector<CandidateScore>& scores, double by_constants) const {
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (!prepared_[i]->is_unspecific() || !scores[i].refusal.empty()) continue;
-    double best = constants_gain(tested);
+    double best = by_constants;
     std::string of = "constants";
     for (std::size_t k = 0; k < scores.size(); ++k) {
       if (k != i && scores[k].score > best) best = scores[k].score, of = scores[k].effect;

@@ -52,11 +52,12 @@ class ObservationScores {
   [[nodiscard]] double left_squares() const;  // held-out squares of the fit's residual
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
   // scores: of the named candidates, in their order.
-  void refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) const;
+  void refuse_unspecific(std::vector<CandidateScore>& scores, double by_constants) const;
   // What there is to explain, as held-out squares in noise variances.
   struct Unexplained {
     double above_noise = 0.0;
-    double by_learned = 0.0;  // gain of the best learned pattern; 0: immaterial
+    double by_learned = 0.0;    // gain of the best learned pattern; 0: immaterial
+    double by_constants = 0.0;  // of all constants that are still open, together
   };
   [[nodiscard]] std::string smallness(const EffectCandidate& candidate, double gain, double above_noise) const;
   [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,

@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,16 +61,16 @@ RandomField::RandomField(const FitView& fit) : fit_(fit), above_(fit.model.q_hig
   };
   double length_px = kShortest_px;
   for (std::size_t i = 0; i < kOctaves; ++i, length_px *= 2.0) {
-    const MatrixXd whitened = covariance(model, length_px);
+    const MatrixXd whitened = covariance(length_px);
     OfLength one{length_px, components_of(beside_above, whitened), {}};
     if (has_own_band) one.within = components_of(beside_within, whitened);
     lengths_.push_back(std::move(one));
   }
 }
 
-MatrixXd RandomField::covariance(const PointMotionModel& model, double length_px) {
-  const MatrixXd half = model.whitened(unit_covariance(model.geometry(), length_px));
-  return model.whitened<MatrixXd>(half.transpose());
+MatrixXd RandomField::covariance(double length_px) const {
+  const MatrixXd half = fit_.model.whitened(unit_covariance(fit_.model.geometry(), length_px));
+  return fit_.model.whitened<MatrixXd>(half.transpose());
 }
 
 const RandomField::Components& RandomField::components(const OfLength& of, std::size_t rung) const {
@@ -181,7 +180,7 @@ double RandomField::n_patterns(const FieldSize& size, const ResidualMoments& mom
 
 MatrixXd RandomField::predicted(const FieldSize& size, const MatrixXd& series) const {
   const OfLength& length = of(size);
-  const MatrixXd of_length = covariance(fit_.model, length.length_px);
+  const MatrixXd of_length = covariance(length.length_px);
   const Rungs& rungs = fit_.held_out.rungs();
   MatrixXd out = MatrixXd::Zero(series.rows(), series.cols());
   for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
@@ -190,12 +189,10 @@ MatrixXd RandomField::predicted(const FieldSize& size, const MatrixXd& series) c
     const double v = variance_in(rung, size);
     const VectorXd share = v / (1.0 + v * own.variance.array());
     const MatrixXd onto = of_length * own.direction * share.asDiagonal();
-    const std::vector<Index> all = rungs.orders(series.cols(), RungSet{1} << rung);
-    for (std::size_t from = 0; from < all.size(); from += Rungs::kOrdersAtOnce) {
-      const auto orders = std::span(all).subspan(from, std::min(Rungs::kOrdersAtOnce, all.size() - from));
-      const MatrixXd cosines = Rungs::cosines(series.cols(), orders);
+    const std::vector<Index> orders = rungs.orders(series.cols(), RungSet{1} << rung);
+    Rungs::for_cosines(series.cols(), orders, [&](Index /*first*/, const MatrixXd& cosines) {
       out.noalias() += (onto * (own.direction.transpose() * (series * cosines))) * cosines.transpose();
-    }
+    });
   }
   return out;
 }

@@ -55,7 +55,7 @@ class RandomField {
   };
 
   // Whitened, of a field of 1 px rms.
-  [[nodiscard]] static Eigen::MatrixXd covariance(const PointMotionModel& model, double length_px);
+  [[nodiscard]] Eigen::MatrixXd covariance(double length_px) const;
   [[nodiscard]] static Estimate estimate(const Eigen::VectorXd& own, const Eigen::VectorXd& squares, double n);
   [[nodiscard]] const Components& components(const OfLength& of, std::size_t rung) const;
   [[nodiscard]] bool is_within(std::size_t rung) const noexcept { return within_ && holds(fit_.model.band(), rung); }

@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace core::closure {
+namespace {
+
+constexpr std::size_t kAtOnce = 64;  // cosines
+
+}  // namespace
 
 Rungs::Rungs(double rate_hz) : rate_hz_(rate_hz) {
   const double half_hz = 0.5 * rate_hz;
@@ -70,6 +75,14 @@ Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, std::span<const Eigen::Ind
 
 Eigen::MatrixXd Rungs::cosines(Eigen::Index n_frames, RungSet set) const {
   return cosines(n_frames, orders(n_frames, set));
+}
+
+void Rungs::for_cosines(Eigen::Index n_frames, std::span<const Eigen::Index> orders,
+                        const std::function<void(Eigen::Index, const Eigen::MatrixXd&)>& use) {
+  for (std::size_t from = 0; from < orders.size(); from += kAtOnce) {
+    const auto some = orders.subspan(from, std::min(kAtOnce, orders.size() - from));
+    use(static_cast<Eigen::Index>(from), cosines(n_frames, some));
+  }
 }
 
 }  // namespace core::closure

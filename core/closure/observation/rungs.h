@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,6 @@ inline constexpr RungSet kAllRungs = ~RungSet{0};
 class Rungs {
  public:
   static constexpr std::size_t kMost = 63;
-  static constexpr std::size_t kOrdersAtOnce = 64;  // all cosines of a band take four times a residual's memory
 
   explicit Rungs(double rate_hz);
 
@@ -33,6 +33,10 @@ class Rungs {
   // Their orders, and the cosines of some of them.
   [[nodiscard]] std::vector<Eigen::Index> orders(Eigen::Index n_frames, RungSet set) const;
   [[nodiscard]] static Eigen::MatrixXd cosines(Eigen::Index n_frames, std::span<const Eigen::Index> orders);
+  // The same cosines a few at a time: all cosines of a band take four times the memory of a residual.
+  // use(first, cosines): those of orders[first] and the ones that follow.
+  static void for_cosines(Eigen::Index n_frames, std::span<const Eigen::Index> orders,
+                          const std::function<void(Eigen::Index first, const Eigen::MatrixXd& cosines)>& use);
 
  private:
   double rate_hz_;
