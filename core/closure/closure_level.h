@@ -58,6 +58,10 @@ class ClosureLevel {
   // The same for an effect that is due to one of absorbed().
   virtual std::optional<std::size_t> drop_pretended() { return std::nullopt; }
 
+  // What an adopted effect changes in the data, rms in the level's unit, after the last fit(). 0: only what it takes
+  // from the residual is known.
+  [[nodiscard]] virtual double size_of(std::size_t /*adopted*/) const { return 0.0; }
+
   // Parameters of an adopted effect, after the last fit().
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(std::size_t adopted) const = 0;
 

@@ -82,11 +82,11 @@ class Loop {
     const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
     const double reached = drop(before, fit_);
     if (!from_nothing && !keeps(reached, predicted)) return take_back(scores[best], predicted);
-    if (!from_nothing && reached < options_.least_gain * options_.least_gain) {
+    const double size = std::max(std::sqrt(std::max(reached, 0.0)), level_.size_of(result_.steps.size()));
+    if (!from_nothing && size < options_.least_effect) {
       level_.drop();
       fit_ = level_.fit();
-      return stop("the best candidate, " + scores[best].effect +
-                  ", reduces the residual by less than the smallest gain asked for");
+      return stop("the best candidate, " + scores[best].effect + ", is smaller than the smallest effect asked for");
     }
     ClosureStep step;
     step.effect = scores[best].effect;

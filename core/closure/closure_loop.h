@@ -17,7 +17,9 @@ struct ClosureOptions {
   std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
-  double least_gain = 0.0;     // in the level's unit (rms, held out): a step with a smaller gain is not adopted
+  // In the level's unit, rms: an effect is not adopted if both what it changes in the data (ClosureLevel::size_of) and
+  // the drop of the held-out error are smaller. Quantities that are free in the model absorb a part of most effects.
+  double least_effect = 0.0;
   TellProgress progress = {};  // called at the start of each part, and after each surrogate
 };
 

@@ -71,6 +71,8 @@ class EffectInModel {
   // after removal of the model's columns, 2 points x frames in sigmas.
   [[nodiscard]] virtual Eigen::Index n_constants() const { return 0; }
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const FitView& /*fit*/) const { return {}; }
+  // What its constants move the points by, each about its mean place: rms per axis.
+  [[nodiscard]] virtual double moves_px(const FitView& /*fit*/) const { return 0.0; }
   virtual void change_constants(const Eigen::VectorXd& /*change*/, const Eigen::MatrixXd& /*covariance*/) {}
   [[nodiscard]] virtual double added_readout_frames() const { return 0.0; }
   [[nodiscard]] virtual LensCoefficients lens() const { return {}; }

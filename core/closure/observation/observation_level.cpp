@@ -106,6 +106,10 @@ std::vector<NotObservable> ObservationLevel::not_observable() const {
   return out;
 }
 
+double ObservationLevel::size_of(std::size_t adopted) const {
+  return fit_.effects().at(adopted)->moves_px(fit_.view());
+}
+
 std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) const {
   return effect_parameters(fit_, adopted);
 }

@@ -46,6 +46,7 @@ class ObservationLevel final : public ClosureLevel {
   // A latent pattern without which the held-out error is no larger; constants of which none differs from zero.
   std::optional<std::size_t> drop_needless() override;
   std::optional<std::size_t> drop_pretended() override;
+  [[nodiscard]] double size_of(std::size_t adopted) const override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;

@@ -20,6 +20,9 @@ class ReadoutTime final : public ConstantEffect, private InFlightCorrection {
                                                          const FitView& fit) const override {
     return {fit.model.left_at_common_instants(fit.model.readout_field())};
   }
+  [[nodiscard]] double moves_px(const Eigen::VectorXd& values, const FitView& fit) const override {
+    return rms_about_means(values(0) * fit.model.readout_field());
+  }
   [[nodiscard]] double added_readout_frames(const Eigen::VectorXd& values) const override { return values(0); }
   [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool /*is_adopted*/) const override {
     if (fit.model.readout_field().norm() > kLeastMotion * std::sqrt(fit.held_out.n_values())) return std::nullopt;

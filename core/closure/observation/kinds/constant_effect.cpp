@@ -48,6 +48,7 @@ class ConstantsInModel final : public EffectInModel {
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const FitView& fit) const override {
     return effect_.derivatives(values_, fit);
   }
+  [[nodiscard]] double moves_px(const FitView& fit) const override { return effect_.moves_px(values_, fit); }
   void change_constants(const Eigen::VectorXd& change, const Eigen::MatrixXd& covariance) override {
     values_ += change;
     for (double& value : values_) value = std::clamp(value, -effect_.most(), effect_.most());
@@ -125,6 +126,17 @@ std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& 
     out.push_back(fit.model.left_at_common_instants(std::move(field)));
   }
   return out;
+}
+
+double rms_about_means(Eigen::MatrixXd series) {
+  series.colwise() -= series.rowwise().mean().eval();
+  return std::sqrt(series.cwiseAbs2().mean());
+}
+
+double PositionEffect::moves_px(const Eigen::VectorXd& values, const FitView& fit) const {
+  Eigen::MatrixXd positions = fit.predicted_px;
+  remove(values, beside(values, fit.correction()), positions);
+  return rms_about_means(fit.predicted_px - positions);
 }
 
 }  // namespace core::closure

@@ -19,6 +19,8 @@ class ConstantEffect : public ObservationEffect {
   // sigmas).
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values,
                                                                  const FitView& fit) const = 0;
+  // What these values move the points by, each about its mean place: rms per axis.
+  [[nodiscard]] virtual double moves_px(const Eigen::VectorXd& values, const FitView& fit) const = 0;
   // Standard deviations of the constants by terms of the same cause that the record hardly shows and that are left out.
   [[nodiscard]] virtual Eigen::VectorXd left_out(const Eigen::VectorXd& values, const FitView& /*fit*/) const {
     return Eigen::VectorXd::Zero(values.size());
@@ -43,6 +45,7 @@ class PositionEffect : public ConstantEffect {
   virtual void remove(const Eigen::VectorXd& values, const CorrectionView& view, Eigen::MatrixXd& positions) const = 0;
 
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values, const FitView& fit) const final;
+  [[nodiscard]] double moves_px(const Eigen::VectorXd& values, const FitView& fit) const final;
   void correct(CorrectionStage at, const Eigen::VectorXd& values, const CorrectionView& view,
                Eigen::MatrixXd& positions) const override {
     if (at == stage()) remove(values, view, positions);
@@ -54,5 +57,8 @@ class PositionEffect : public ConstantEffect {
     return view;
   }
 };
+
+// Of all rows of a matrix, each about its own mean.
+[[nodiscard]] double rms_about_means(Eigen::MatrixXd series);
 
 }  // namespace core::closure
