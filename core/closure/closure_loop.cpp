@@ -83,7 +83,7 @@ class Loop {
     const double reached = drop(before, fit_);
     if (!from_nothing && !keeps(reached, predicted)) return take_back(scores[best], predicted);
     const double size = std::max(std::sqrt(std::max(reached, 0.0)), level_.size_of(result_.steps.size()));
-    if (!from_nothing && size < options_.least_effect) {
+    if (!from_nothing && size < options_.least_gain) {
       level_.drop();
       fit_ = level_.fit();
       return stop("the best candidate, " + scores[best].effect + ", is smaller than the smallest effect asked for");

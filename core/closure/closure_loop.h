@@ -17,9 +17,9 @@ struct ClosureOptions {
   std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
-  // In the level's unit, rms: an effect is not adopted if both what it changes in the data (ClosureLevel::size_of) and
-  // the drop of the held-out error are smaller. Quantities that are free in the model absorb a part of most effects.
-  double least_effect = 0.0;
+  // In the level's unit, rms: an effect is not adopted where both the drop of the held-out error and what it changes in
+  // the data (ClosureLevel::size_of) are smaller. Quantities that are free in the model absorb a part of most effects.
+  double least_gain = 0.0;
   TellProgress progress = {};  // called at the start of each part, and after each surrogate
 };
 

@@ -175,7 +175,7 @@ void MissingEffectSearch::conclude(core::closure::ClosureReport& out) const {
     core::closure::ObservationLevel level(config_.recent.record());
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
-    options.least_effect = config_.least_px;
+    options.least_gain = config_.least_px;
     out.result = core::closure::close_loop(level, options);
     config_.motors.name(out.result, config_.rate_hz, out.duration_s);
   } catch (const std::bad_alloc&) {

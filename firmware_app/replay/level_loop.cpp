@@ -158,7 +158,7 @@ class LevelLoop {
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
     options.seed = inputs_.seed;
-    options.least_effect = inputs_.config->closure.least_px;
+    options.least_gain = inputs_.config->closure.least_px;
     options.progress = inputs_.progress;
     ClosureResult result = core::closure::close_loop(*level, options);
     name_motors(*inputs_.config, motors_, level->state().record(), result);

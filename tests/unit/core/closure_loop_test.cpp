@@ -219,7 +219,7 @@ TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {
   for (const double least : {2.6, 2.7}) {  // 4 -> 3 removes sqrt(7) = 2.65
     ScriptedLevel level;
     level.known = {{"small", 3.0}};
-    options.least_effect = least;
+    options.least_gain = least;
     const ClosureResult result = close_loop(level, options);
     EXPECT_EQ(result.steps.size(), least < 2.65 ? 1U : 0U);
     EXPECT_EQ(result.stop_reason.find("small, is smaller than the smallest effect asked for") != std::string::npos,
@@ -232,8 +232,8 @@ TEST(ClosureLoop, AnEffectCountsByWhatItChangesEvenIfTheModelAbsorbsMostOfIt) {
   ScriptedLevel level;
   level.known = {{"absorbed", 3.0}};  // removes 2.65
   level.size = 5.0;
-  EXPECT_EQ(close_loop(level, {.least_effect = 4.9}).steps.size(), 1U);
-  EXPECT_TRUE(close_loop(level, {.least_effect = 5.1}).steps.empty());
+  EXPECT_EQ(close_loop(level, {.least_gain = 4.9}).steps.size(), 1U);
+  EXPECT_TRUE(close_loop(level, {.least_gain = 5.1}).steps.empty());
 }
 
 TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
