@@ -1,15 +1,40 @@
 #include "core/identification/chance_poles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
+#include "core/identification/listed_modes.h"
 #include "core/identification/mode_sigmas.h"
 #include "core/identification/verdict_words.h"
 
 namespace core {
 
 namespace {
-constexpr double kMostOfLeastSigma = 2.75;
+
+constexpr double kMostOfLeastSigma = 2.75, kMostOfLeastSigmaInAll = 5.0;
+
+// Sigma of the frequency over the least one, where both are known.
+std::optional<double> of_least_sigma(const Mode& mode, double duration_s) {
+  const double least_hz = std::sqrt(least_variances(mode, duration_s).frequency_hz);
+  if (!mode.frequency_std_hz || !(least_hz > 0.0)) return std::nullopt;
+  return *mode.frequency_std_hz / least_hz;
+}
+
+void set_known_badly(Mode& mode, double of_least) {
+  set_numerical(
+      mode, in_words("found in %.0f %% of the orders, with a frequency known to %.2g Hz: a mode with this damping is "
+                     "known %.1f times better",
+                     100.0 * mode.presence, *mode.frequency_std_hz, of_least));
+}
+
+bool is_vague(const Mode& mode, double duration_s) {
+  const bool is_mode = mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
+  return is_mode && of_least_sigma(mode, duration_s).value_or(0.0) > kMostOfLeastSigmaInAll;
+}
+
 }  // namespace
 
 void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, std::vector<Mode>& modes) {
@@ -18,17 +43,29 @@ void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, st
     const bool is_mode = mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
     if (!is_mode && !(mode.verdict == Verdict::kCandidate && is_late[i])) continue;
     if (!is_late[i] && !(mode.presence < 1.0)) continue;
-    const double least_hz = std::sqrt(least_variances(mode, duration_s).frequency_hz);
-    if (!mode.frequency_std_hz || !(least_hz > 0.0)) {
-      if (is_late[i])
-        set_numerical(mode, in_words("found in %.0f %% of the orders, without a sigma", 100.0 * mode.presence));
-    } else if (*mode.frequency_std_hz > kMostOfLeastSigma * least_hz) {
-      set_numerical(
-          mode, in_words("found in %.0f %% of the orders, with a frequency known to %.2g Hz: a mode with this damping "
-                         "is known %.1f times better",
-                         100.0 * mode.presence, *mode.frequency_std_hz, *mode.frequency_std_hz / least_hz));
+    const std::optional<double> of_least = of_least_sigma(mode, duration_s);
+    if (of_least && *of_least > kMostOfLeastSigma) {
+      set_known_badly(mode, *of_least);
+    } else if (!of_least && is_late[i]) {
+      set_numerical(mode, in_words("found in %.0f %% of the orders, without a sigma", 100.0 * mode.presence));
     }
   }
+}
+
+void reject_vague_modes(double duration_s, std::vector<Mode>& modes) {
+  for (Mode& mode : modes) {
+    if (is_vague(mode, duration_s)) set_known_badly(mode, of_least_sigma(mode, duration_s).value_or(0.0));
+  }
+}
+
+void reject_vague_modes(double duration_s, ModalEstimate& estimate) {
+  std::vector<Mode>& modes = estimate.modes;
+  if (std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) { return is_vague(mode, duration_s); })) return;
+  reject_vague_modes(duration_s, modes);
+  std::vector<ListedMode> structural, rejected = listed_modes(estimate.rejected, static_cast<int>(modes.size()));
+  for (ListedMode& one : listed_modes(modes, 0))
+    (one.mode.verdict == Verdict::kNumerical ? rejected : structural).push_back(std::move(one));
+  list_again(std::move(structural), std::move(rejected), estimate);
 }
 
 }  // namespace core

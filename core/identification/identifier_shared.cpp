@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/identification/identifier.h"
+#include "core/identification/listed_modes.h"
 #include "core/identification/measured_inputs.h"
 #include "core/identification/relative_motion.h"
 #include "core/identification/verdict_words.h"
@@ -15,39 +16,6 @@ namespace core {
 namespace {
 
 constexpr double kSameFrequency = 0.02;  // relative
-
-// Modes of an estimate with the index that the poles of its diagram name; -1: not of that diagram.
-struct Listed {
-  Mode mode;
-  int i_line = -1;
-};
-
-std::vector<Listed> listed(std::vector<Mode>& modes, int first) {
-  std::vector<Listed> out;
-  out.reserve(modes.size());
-  for (Mode& mode : modes) out.push_back({std::move(mode), first++});
-  return out;
-}
-
-// Writes both lists, each by frequency, and renumbers the lines that the diagram's poles name.
-void list_anew(std::vector<Listed> structural, std::vector<Listed> rejected, ModalEstimate& estimate) {
-  const auto n_before = estimate.modes.size() + estimate.rejected.size();
-  estimate.modes.clear(), estimate.rejected.clear();
-  std::vector<int> now(n_before, -1);
-  int n = 0;
-  for (auto* list : {&structural, &rejected}) {
-    std::stable_sort(list->begin(), list->end(),
-                     [](const Listed& a, const Listed& b) { return a.mode.frequency_hz < b.mode.frequency_hz; });
-    for (Listed& one : *list) {
-      if (one.i_line >= 0) now[static_cast<std::size_t>(one.i_line)] = n;
-      ++n;
-      (list == &structural ? estimate.modes : estimate.rejected).push_back(std::move(one.mode));
-    }
-  }
-  for (StabilisationPole& pole : estimate.poles) {
-    if (pole.i_line >= 0) pole.i_line = now[static_cast<std::size_t>(pole.i_line)];
-  }
-}
 
 bool is_same(double a_hz, double b_hz) { return std::abs(a_hz - b_hz) < kSameFrequency * b_hz; }
 
@@ -69,7 +37,8 @@ std::vector<std::size_t> relative_channels(const std::vector<ChannelInfo>& chann
 // shared mode that the relative motion does not have is the camera's.
 template <class IsShared>
 void prefer_relative(std::vector<Mode> relative, const IsShared& is_shared, int base, ModalEstimate& estimate) {
-  std::vector<Listed> structural, rejected = listed(estimate.rejected, static_cast<int>(estimate.modes.size()));
+  std::vector<ListedMode> structural,
+      rejected = listed_modes(estimate.rejected, static_cast<int>(estimate.modes.size()));
   std::vector<double> taken_hz;
   for (Mode& mode : relative) {
     const auto is_this = [&](const Mode& one) { return is_same(one.frequency_hz, mode.frequency_hz); };
@@ -79,7 +48,7 @@ void prefer_relative(std::vector<Mode> relative, const IsShared& is_shared, int 
     taken_hz.push_back(mode.frequency_hz);
     structural.push_back({std::move(mode), -1});
   }
-  for (Listed& one : listed(estimate.modes, 0)) {
+  for (ListedMode& one : listed_modes(estimate.modes, 0)) {
     const auto is_this = [&](double hz) { return is_same(hz, one.mode.frequency_hz); };
     if (!is_shared(one.mode) && std::none_of(taken_hz.begin(), taken_hz.end(), is_this)) {
       structural.push_back(std::move(one));
@@ -89,7 +58,7 @@ void prefer_relative(std::vector<Mode> relative, const IsShared& is_shared, int 
         "the camera moves with the structure: the modes here are those of the motion relative to the base");
     rejected.push_back(std::move(one));
   }
-  list_anew(std::move(structural), std::move(rejected), estimate);
+  list_again(std::move(structural), std::move(rejected), estimate);
 }
 
 }  // namespace
