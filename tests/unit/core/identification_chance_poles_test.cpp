@@ -65,6 +65,43 @@ TEST(ChancePoles, WithoutASigmaOrDampingThereIsNothingToCompare) {
   EXPECT_EQ(modes[2].verdict, Verdict::kCandidate);
 }
 
+// An estimate of two modes, the second one known `times` worse than it could be, and of one rejected pole between them.
+ModalEstimate estimate_of(double times) {
+  ModalEstimate estimate;
+  for (const double of_least : {1.0, times}) estimate.modes.push_back(one_mode(1.0, of_least)[0]);
+  estimate.modes[1].frequency_hz = 9.0;
+  estimate.modes[1].frequency_std_hz = times * std::sqrt(least_variances(estimate.modes[1], kDuration_s).frequency_hz);
+  estimate.rejected.push_back(one_mode(0.5, 1.0, Verdict::kNumerical)[0]);
+  estimate.rejected[0].frequency_hz = 8.0;
+  for (const int line : {0, 1, 2, 2, 0}) {
+    estimate.poles.emplace_back();
+    estimate.poles.back().i_line = line;
+  }
+  return estimate;
+}
+
+TEST(VagueModes, AFrequencyFiveTimesWorseThanPossibleIsNoModesAndTheDiagramFollows) {
+  ModalEstimate estimate = estimate_of(6.0);
+  reject_vague_modes(kDuration_s, estimate);
+  ASSERT_EQ(estimate.modes.size(), 1U);
+  ASSERT_EQ(estimate.rejected.size(), 2U);
+  EXPECT_DOUBLE_EQ(estimate.rejected[1].frequency_hz, 9.0);
+  EXPECT_EQ(estimate.rejected[1].verdict, Verdict::kNumerical);
+  EXPECT_NE(estimate.rejected[1].reason.find("6.0 times better"), std::string::npos) << estimate.rejected[1].reason;
+  const std::vector<int> lines{0, 2, 1, 1, 0};  // the rejected poles in the order of their frequencies
+  for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_EQ(estimate.poles[i].i_line, lines[i]) << i;
+}
+
+TEST(VagueModes, AWellKnownOneStaysAndWithoutASigmaThereIsNothingToCompare) {
+  ModalEstimate known = estimate_of(4.5), unknown = estimate_of(6.0);
+  unknown.modes[1].frequency_std_hz.reset();
+  for (ModalEstimate* estimate : {&known, &unknown}) {
+    reject_vague_modes(kDuration_s, *estimate);
+    EXPECT_EQ(estimate->modes.size(), 2U);
+    EXPECT_EQ(estimate->poles[2].i_line, 2);
+  }
+}
+
 // Found at high orders only, whatever its verdict is so far.
 TEST(ChancePoles, ALatePoleIsAModeOnlyIfItsFrequencyIsKnown) {
   for (const Verdict verdict : {Verdict::kStructural, Verdict::kAmbiguous, Verdict::kCandidate}) {
