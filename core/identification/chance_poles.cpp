@@ -32,7 +32,8 @@ void set_known_badly(Mode& mode, double of_least) {
 
 bool is_vague(const Mode& mode, double duration_s) {
   const bool is_mode = mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
-  return is_mode && of_least_sigma(mode, duration_s).value_or(0.0) > kMostOfLeastSigmaInAll;
+  return is_mode && of_least_sigma(mode, duration_s).value_or(0.0) > kMostOfLeastSigmaInAll &&
+         *mode.frequency_std_hz > mode.damping_ratio * mode.frequency_hz;
 }
 
 }  // namespace
