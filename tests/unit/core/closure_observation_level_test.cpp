@@ -98,6 +98,22 @@ TEST(ObservationLevel, UndeclaredReadoutTimeIsNamedAndFound) {
   EXPECT_NEAR(result.steps[0].parameters.at(0).value, 0.6, 0.03);
 }
 
+// The motions of the regions absorb most of it, and yet it delays the rows.
+TEST(ObservationLevel, AReadoutTimeCountsByWhatItMovesThePointsBy) {
+  ObservationLevel level(swaying_record(1000, {.readout_frames = 0.6}));
+  ClosureOptions options;
+  options.n_surrogates = 8;
+  const ClosureStep step = close_loop(level, options).steps.at(0);
+  const double drop_px = std::sqrt(std::pow(step.heldout_before, 2) - std::pow(step.heldout_after, 2));
+  const double moves_px = level.size_of(0);
+  ASSERT_GT(moves_px, 1.2 * drop_px);
+  for (const double least_px : {0.5 * (drop_px + moves_px), 1.1 * moves_px}) {
+    ObservationLevel again(swaying_record(1000, {.readout_frames = 0.6}));
+    options.least_gain = least_px;
+    EXPECT_EQ(close_loop(again, options).steps.size(), least_px < moves_px ? 1U : 0U) << least_px;
+  }
+}
+
 TEST(ObservationLevel, AnEffectOutsideTheCatalogueIsLatentAndDescribed) {
   const ObservationRecord record = swaying_record(1000, {.roll_rms_rad = 0.03 * kPi / 180.0});
   ObservationLevel level(record);
