@@ -17,7 +17,6 @@
 namespace core::closure {
 namespace {
 
-using test_support::Hidden;
 using test_support::kPi;
 using test_support::swaying_record;
 
