@@ -3,7 +3,7 @@
 #   tools/figures/trust_clips.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: 2b_60 2b_300 (default: all)
 # --quick takes two seeds; 2b_300 is left out then. Per seed and length a clip is drawn uncompressed and encoded at 0.05, 0.15
 # and 0.4 bits a pixel; the service runs on all four. Their modes stay in build/figures/trust_clips, clips are deleted after
-# each run (16 GB are needed for one of 300 s). libx264's preset superfast draws worse at the same rate than slower ones.
+# each run (16 GB are needed for one of 300 s). A run that was cut off goes on after its last whole seed. libx264's preset superfast draws worse at the same rate than slower ones.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
@@ -50,20 +50,41 @@ rms = (sum(e * e for e in errors) / len(errors)) ** 0.5 if errors else float("na
 print(len(found), len(result["modes"]) - len(found), f"{min(macs, default=float('nan')):.4f} {rms:.2f}")
 PY
 }
-# runs SECONDS: a line "seed bits found false mac sigma" for every clip in $out/SECONDS.tsv.
+# serve SECONDS SEED BITS: the service on a clip; "seed bits found false mac sigma" in $out/row_BITS.
+serve() {
+  local folder=$out/$1_$2_$3 clip=$out/$3.mp4
+  [ "$3" != lossless ] || clip=$out/drawn/clip.y4m
+  quietly "$bin/hovermodald" --config "$out/drawn/config.yaml" --set "camera.source=$PWD/$clip" --set telemetry.lcm_url= --set closure.adopt=off --report "$folder"
+  echo "$2 $3 $(score "$folder")" >"$out/row_$3"
+  rm -f "$folder/tracks.csv"
+}
+# clips SECONDS SEED: the four clips of a seed, two at a time; nothing here depends on how long it takes.
+clips() {
+  quietly "$bin/hovermodal" simulate --scene tools/scenes/paper.yaml --duration "$1" --seed "$2" --raw --force --out "$out/drawn"
+  serve "$1" "$2" lossless &
+  encode
+  serve "$1" "$2" "${rates[0]}"
+  wait $!
+  rm -f "$out/drawn/clip.y4m"
+  serve "$1" "$2" "${rates[1]}" &
+  serve "$1" "$2" "${rates[2]}"
+  wait $!
+  cat "$out"/row_* >"$kept/$2"
+  rm -f "$out"/row_* "$out"/*.mp4
+}
+# runs SECONDS: a line for every clip in $out/SECONDS.tsv. Those of a seed stay for a run that was cut off; a change of what
+# the figure measures begins again.
 runs() {
-  local seed bits folder clip
+  local seed kept
+  kept=$out/$1-$(python3 tools/figures/tables.py --rooms "trust_clips_$1" | sha256sum | cut -c1-16)
+  mkdir -p "$kept"
   : >"$out/$1.tsv"
   for ((seed = first_seed; seed < first_seed + seeds; ++seed)); do
-    quietly "$bin/hovermodal" simulate --scene tools/scenes/paper.yaml --duration "$1" --seed "$seed" --raw --force --out "$out/drawn"
-    encode
-    for bits in lossless "${rates[@]}"; do
-      folder=$out/$1_${seed}_$bits clip=$out/$bits.mp4
-      [ "$bits" != lossless ] || clip=$out/drawn/clip.y4m
-      quietly "$bin/hovermodald" --config "$out/drawn/config.yaml" --set "camera.source=$PWD/$clip" --set telemetry.lcm_url= --set closure.adopt=off --report "$folder"
-      echo "$seed $bits $(score "$folder")" >>"$out/$1.tsv"
-      rm -f "$folder/tracks.csv" "$clip"
-    done
+    if [ ! -e "$kept/$seed" ]; then
+      echo "clips of $1 s: seed $seed of $first_seed-$((first_seed + seeds - 1))" >&2
+      clips "$1" "$seed"
+    fi
+    cat "$kept/$seed" >>"$out/$1.tsv"
   done
 }
 # sum SECONDS BITS: records, modes found, false ones, least MAC, rms of the errors in sigma.
