@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "core/linear/dense.h"
+
 namespace core::closure {
 namespace {
 
@@ -69,7 +71,8 @@ double LeaveOnePointOut::squares_with(const Eigen::MatrixXd& moments, const Eige
 
 double LeaveOnePointOut::squares_under(const Eigen::MatrixXd& inverse_covariance,
                                        const Eigen::MatrixXd& moments) const {
-  const Eigen::MatrixXd half = inverse_covariance * moments;
+  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(moments.rows(), moments.cols());
+  add_product(half, 1.0, inverse_covariance, moments);
   double sum = 0.0;
   for (std::size_t j = 0; j < hat_.size(); ++j) {
     if (counted_[j] == 0) continue;

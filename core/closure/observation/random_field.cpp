@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/linear/dense.h"
+
 namespace core::closure {
 namespace {
 
@@ -37,7 +39,9 @@ MatrixXd complement(const MatrixXd& q) {
 
 // Squares along each column of `of`.
 VectorXd squares_along(const MatrixXd& of, const MatrixXd& moments) {
-  return (moments * of).cwiseProduct(of).colwise().sum().transpose();
+  MatrixXd product = MatrixXd::Zero(of.rows(), of.cols());
+  add_product(product, 1.0, moments, of);
+  return product.cwiseProduct(of).colwise().sum().transpose();
 }
 
 }  // namespace
@@ -149,7 +153,7 @@ FieldSize RandomField::size(const ResidualMoments& moments) const {
     out.variance_px2.push_back(0.0);
     if (found.variance <= 0.0) continue;
     const VectorXd kept = (1.0 + found.variance * own.variance.array()).inverse();
-    const MatrixXd p = own.direction * kept.asDiagonal() * own.direction.transpose();
+    const MatrixXd p = gram(own.direction * kept.cwiseSqrt().asDiagonal());
     const LeaveOnePointOut& left_out = is_within(rung) ? *within_ : above_;
     const double gain = left_out.squares(m) - left_out.squares_under(p, m);
     const double taken = static_cast<double>(kept.size()) - kept.sum();

@@ -68,19 +68,18 @@ class RefractionCandidate final : public EffectCandidate {
     size_ = field_.size(residual.moments);
     if (!(size_.gain > 0.0)) return 0.0;
     n_patterns_ = field_.n_patterns(size_, residual.moments);
-    const Eigen::MatrixXd px = fit_.model.in_px(field_.predicted(size_, residual.values));
-    drift_ = field_drift(px, fit_.model.geometry(), fit_.record.rate_hz);
     return size_.gain;
   }
   [[nodiscard]] double material_share() const override { return kFullBandBar; }
   [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] bool is_unspecific() const override { return true; }
-  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
+  [[nodiscard]] Objection objection(const TestedResidual& residual) const override {
     if (n_patterns_ < kLeastPatterns) {
       return {"it has " + std::to_string(std::lround(n_patterns_)) + " patterns: effects with patterns of their own",
               true};
     }
-    if (drift_.likeness < kLeastLikeness)
+    const Eigen::MatrixXd px = fit_.model.in_px(field_.predicted(size_, residual.values));
+    if (field_drift(px, fit_.model.geometry(), fit_.record.rate_hz).likeness < kLeastLikeness)
       return {"it does not drift over the points: errors of the tracker or of a codec", true};
     return {};
   }
@@ -94,7 +93,6 @@ class RefractionCandidate final : public EffectCandidate {
   const FitView fit_;
   RandomField field_;
   FieldSize size_;
-  FieldDrift drift_;
   double n_patterns_ = 0.0;
 };
 
