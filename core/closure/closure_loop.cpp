@@ -82,8 +82,7 @@ class Loop {
     const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
     const double reached = drop(before, fit_);
     if (!from_nothing && !keeps(reached, predicted)) return take_back(scores[best], predicted);
-    const double size = std::max(std::sqrt(std::max(reached, 0.0)), level_.size_of(result_.steps.size()));
-    if (!from_nothing && size < options_.least_gain) {
+    if (!from_nothing && options_.least_gain > 0.0 && size_of_adopted(reached) < options_.least_gain) {
       level_.drop();
       fit_ = level_.fit();
       return stop("the best candidate, " + scores[best].effect + ", is smaller than the smallest effect asked for");
@@ -104,6 +103,10 @@ class Loop {
     ++n_adoptions_;
     remove_needless();
     return true;
+  }
+
+  [[nodiscard]] double size_of_adopted(double drop_of_squares) const {
+    return std::max(std::sqrt(std::max(drop_of_squares, 0.0)), level_.size_of(result_.steps.size()));
   }
 
   void remove_needless() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -21,32 +22,40 @@ constexpr double kLeastSignalPower = 1.5;  // smallest power of a signal, in noi
 class Periodic {
  public:
   Periodic(Eigen::Index n, int n_fft)
-      : n_(n), fft_(n_fft), series_(static_cast<std::size_t>(n_fft)), bins_(static_cast<std::size_t>(fft_.n_bins())) {}
+      : n_(static_cast<std::size_t>(n)),
+        fft_(n_fft),
+        series_(static_cast<std::size_t>(n_fft)),
+        bins_(static_cast<std::size_t>(fft_.n_bins())) {
+    const std::size_t bridge = series_.size() - n_;
+    for (std::size_t i = 1; i <= bridge; ++i)
+      share_after_.push_back(
+          0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(bridge + 1)));
+  }
 
   [[nodiscard]] std::vector<Complex>& bins() noexcept { return bins_; }
 
   void forward(const Eigen::MatrixXd& from, Eigen::Index row) {
-    for (Eigen::Index k = 0; k < n_; ++k) series_[static_cast<std::size_t>(k)] = from(row, k);
-    const Eigen::Index bridge = fft_.size() - n_, last = n_ - 1;
-    for (Eigen::Index i = 1; i <= bridge; ++i) {
-      const double after = 2.0 * from(row, last) - from(row, std::max<Eigen::Index>(last - i, 0));
-      const double before = 2.0 * from(row, 0) - from(row, std::min<Eigen::Index>(bridge + 1 - i, last));
-      const double share =
-          0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(bridge + 1));
-      series_[static_cast<std::size_t>(last + i)] = share * after + (1.0 - share) * before;
+    for (std::size_t k = 0; k < n_; ++k) series_[k] = from(row, static_cast<Eigen::Index>(k));
+    const std::size_t bridge = share_after_.size(), last = n_ - 1;
+    for (std::size_t i = 1; i <= bridge; ++i) {
+      const double after = 2.0 * series_[last] - series_[i < last ? last - i : 0];
+      const double before = 2.0 * series_[0] - series_[std::min(bridge + 1 - i, last)];
+      const double share = share_after_[i - 1];
+      series_[last + i] = share * after + (1.0 - share) * before;
     }
     fft_.forward(series_, bins_);
   }
 
   void inverse(Eigen::MatrixXd& to, Eigen::Index row) {
     fft_.inverse(bins_, series_);
-    for (Eigen::Index k = 0; k < n_; ++k) to(row, k) = series_[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < n_; ++k) to(row, static_cast<Eigen::Index>(k)) = series_[k];
   }
 
  private:
-  Eigen::Index n_;
+  std::size_t n_;
   RealFft fft_;
   std::vector<double> series_;
+  std::vector<double> share_after_;  // of what follows the record, in the frames that blend its end into its beginning
   std::vector<Complex> bins_;
 };
 

@@ -25,8 +25,9 @@ class PixelLocking final : public PositionEffect, private InFlightCorrection {
     for (Eigen::Index k = 0; k < positions.cols(); ++k) {
       for (Eigen::Index i = 0; i < positions.rows(); ++i) {
         const double phase = 2.0 * std::numbers::pi * view.predicted_px(i, k);
-        positions(i, k) -= values(0) * std::sin(phase) + values(1) * std::cos(phase) +
-                           values(2) * std::sin(2.0 * phase) + values(3) * std::cos(2.0 * phase);
+        const double sine = std::sin(phase), cosine = std::cos(phase);
+        positions(i, k) -= values(0) * sine + values(1) * cosine + values(2) * 2.0 * sine * cosine +
+                           values(3) * (cosine - sine) * (cosine + sine);
       }
     }
   }

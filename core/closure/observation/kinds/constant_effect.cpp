@@ -106,19 +106,25 @@ std::unique_ptr<EffectCandidate> ConstantEffect::candidate(const FitView& fit) c
   return std::make_unique<ConstantCandidate>(*this, fit);
 }
 
+// Measured positions would add their noise.
+Eigen::MatrixXd PositionEffect::predicted_without(const Eigen::VectorXd& values, const CorrectionView& view,
+                                                  const FitView& fit) const {
+  Eigen::MatrixXd positions = fit.predicted_px;
+  remove(values, view, positions);
+  return positions;
+}
+
 std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& values, const FitView& fit) const {
   std::vector<Eigen::MatrixXd> out;
   const CorrectionView view = beside(values, fit.correction());
-  const auto removed = [&](Eigen::Index p, double step) {
-    Eigen::MatrixXd positions = fit.predicted_px;  // measured positions would add noise to the derivative
+  const auto stepped = [&](Eigen::Index p, double step) {
     Eigen::VectorXd changed = values;
     changed(p) += step;
-    remove(changed, view, positions);
-    return positions;
+    return changed;
   };
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    Eigen::MatrixXd field = removed(p, -step());
-    field -= removed(p, step());
+    Eigen::MatrixXd field = predicted_without(stepped(p, -step()), view, fit);
+    field -= predicted_without(stepped(p, step()), view, fit);
     field /= 2.0 * step();
     // The effect also shifts the mean positions, and the zoom scales this shift.
     for (Eigen::Index j = 0; j < fit.record.n_points(); ++j)
@@ -134,9 +140,7 @@ double rms_about_means(Eigen::MatrixXd series) {
 }
 
 double PositionEffect::moves_px(const Eigen::VectorXd& values, const FitView& fit) const {
-  Eigen::MatrixXd positions = fit.predicted_px;
-  remove(values, beside(values, fit.correction()), positions);
-  return rms_about_means(fit.predicted_px - positions);
+  return rms_about_means(fit.predicted_px - predicted_without(values, beside(values, fit.correction()), fit));
 }
 
 }  // namespace core::closure

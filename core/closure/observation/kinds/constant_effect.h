@@ -56,6 +56,10 @@ class PositionEffect : public ConstantEffect {
   [[nodiscard]] virtual CorrectionView beside(const Eigen::VectorXd& /*values*/, CorrectionView view) const {
     return view;
   }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd predicted_without(const Eigen::VectorXd& values, const CorrectionView& view,
+                                                  const FitView& fit) const;
 };
 
 // Of all rows of a matrix, each about its own mean.
