@@ -11,6 +11,7 @@ A table stands between `<!-- figures: ... -->` and `<!-- figures end -->` in REA
   pick NAME:N ...    these lines only
   own NAME...        the table that the parts' scripts print themselves
   misses             every line that misses its bar, by part and bar, and the parts that were not run
+  missed             the parts with such lines, and how many; the parts that were not run
   count              the numbers of --count
 """
 import argparse
@@ -108,19 +109,24 @@ def own_table(book, patterns):
     return "\n".join(head + rows) + "\n"
 
 
-def absent_parts(book):
-    """Parts without a result; of a family with many of them, their number."""
+def by_family(book, chosen):
+    """Names of parts; of a family with many of them, their number."""
     families = {}
-    for name in book.results:
+    for name in book.parts:
         families.setdefault(name.split("_")[0], []).append(name)
     text = []
     for family, names in families.items():
-        absent = [name for name in names if book.results[name] is None]
-        if len(absent) > NAMED_OF_FAMILY:
-            text.append(f"`{family}_*` ({len(absent)} of {len(names)} parts)")
+        named = [name for name in names if name in chosen]
+        if len(named) > NAMED_OF_FAMILY:
+            text.append(f"`{family}_*` ({len(named)} of {len(names)} parts)")
         else:
-            text += [f"`{name}`" for name in absent]
-    return text
+            text += [f"`{name}`" for name in named]
+    return ", ".join(text)
+
+
+def absent(book):
+    names = [name for name, result in book.results.items() if result is None]
+    return f"not run on the delivered program: {by_family(book, names)}" if names else ""
 
 
 def missing(lines):
@@ -135,35 +141,47 @@ def missing(lines):
     return text
 
 
-def misses(book, _):
-    text = ""
+def parts_that_miss(book):
+    """Name of the part, its lines that miss, the number of its lines that have a bar."""
     for name, result in book.results.items():
         judged = [line for line in (result.lines if result else []) if line.verdict != "beside"]
         lines = [line for line in judged if line.verdict == "MISS"]
         if lines:
-            head = f"`{name}`, {len(lines)} of {len(judged)} lines, on {book.commit(name, NAMED_ROOMS)}"
-            text += f"- **{book.parts[name].title}** ({head})\n{missing(lines)}"
-    absent = absent_parts(book)
-    if absent:
-        text += f"- not run on the delivered program: {', '.join(absent)}\n"
+            yield name, lines, len(judged)
+
+
+def misses(book, _):
+    text = ""
+    for name, lines, n in parts_that_miss(book):
+        head = f"`{name}`, {len(lines)} of {n} lines, on {book.commit(name, NAMED_ROOMS)}"
+        text += f"- **{book.parts[name].title}** ({head})\n{missing(lines)}"
+    if absent(book):
+        text += f"- {absent(book)}\n"
     return text or "- nothing\n"
+
+
+def missed(book, _):
+    text = "| part | figures that miss | of | measured |\n| --- | --- | --- | --- |\n"
+    for name, lines, n in parts_that_miss(book):
+        state = "as it is now" if book.valid(name) else "before a change"
+        text += f"| {cell(book.parts[name].title)} (`{name}`) | {len(lines)} | {n} | {state} |\n"
+    return text + (f"\nAnd {absent(book)}.\n" if absent(book) else "")
 
 
 def count(book, _=()):
     lines = [line.verdict for result in book.results.values() if result for line in result.lines]
     valid = [name for name in book.parts if book.valid(name)]
     changed = [name for name, result in book.results.items() if result and name not in valid]
-    absent = [name for name, result in book.results.items() if result is None]
     text = f"{lines.count('ok')} figures reach their bar, {lines.count('MISS')} miss it, {lines.count('SKIP')} were skipped. "
     text += f"Of {len(book.parts)} parts {len(valid)} ran on the present state of what they measure"
     if changed:
-        text += f"; rooms changed since the run of {', '.join(changed)}"
-    if absent:
-        text += f"; not run: {', '.join(absent)}"
+        text += f"; what they measure changed since the run of {by_family(book, changed)}"
+    if absent(book):
+        text += f"; {absent(book)}"
     return text + ".\n"
 
 
-KINDS = {"part": part_table, "pick": pick_table, "own": own_table, "misses": misses, "count": count}
+KINDS = {"part": part_table, "pick": pick_table, "own": own_table, "misses": misses, "missed": missed, "count": count}
 
 
 def written(book, text, document):

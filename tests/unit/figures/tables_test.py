@@ -80,6 +80,15 @@ class Tables(unittest.TestCase):
         self.assertIn("not run on the delivered program: `other`", project.readme())
         self.assertNotIn("a point", project.readme())
 
+    def test_parts_that_miss_are_counted(self):
+        project = Project("missed")
+        project.run(write=True)
+        self.assertIn("| speed (`speed`) | 1 | 2 | as it is now |\n", project.readme())
+        self.assertIn("And not run on the delivered program: `other`.", project.readme())
+        project.write("core/a.cpp", "int b;\n")
+        project.run(write=True)
+        self.assertIn("| speed (`speed`) | 1 | 2 | before a change |\n", project.readme())
+
     def test_a_written_table_passes_and_a_changed_digit_fails(self):
         project = Project("part speed")
         project.run(write=True)
