@@ -14,7 +14,12 @@ namespace core {
 
 namespace {
 
-constexpr double kMostOfLeastSigma = 2.75, kMostOfLeastSigmaInAll = 5.0;
+constexpr double kMostOfLeastSigma = 2.75;
+constexpr double kVague = 0.1;  // sigma of a frequency, of the frequency
+
+bool is_mode(const Mode& mode) noexcept {
+  return mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
+}
 
 // Sigma of the frequency over the least one, where both are known.
 std::optional<double> of_least_sigma(const Mode& mode, double duration_s) {
@@ -23,17 +28,8 @@ std::optional<double> of_least_sigma(const Mode& mode, double duration_s) {
   return *mode.frequency_std_hz / least_hz;
 }
 
-void set_known_badly(Mode& mode, double of_least) {
-  set_numerical(
-      mode, in_words("found in %.0f %% of the orders, with a frequency known to %.2g Hz: a mode with this damping is "
-                     "known %.1f times better",
-                     100.0 * mode.presence, *mode.frequency_std_hz, of_least));
-}
-
-bool is_vague(const Mode& mode, double duration_s) {
-  const bool is_mode = mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
-  return is_mode && of_least_sigma(mode, duration_s).value_or(0.0) > kMostOfLeastSigmaInAll &&
-         *mode.frequency_std_hz > mode.damping_ratio * mode.frequency_hz;
+bool is_vague(const Mode& mode) {
+  return is_mode(mode) && mode.frequency_std_hz.value_or(0.0) > kVague * mode.frequency_hz;
 }
 
 }  // namespace
@@ -41,28 +37,32 @@ bool is_vague(const Mode& mode, double duration_s) {
 void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, std::vector<Mode>& modes) {
   for (std::size_t i = 0; i < modes.size(); ++i) {
     Mode& mode = modes[i];
-    const bool is_mode = mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous;
-    if (!is_mode && !(mode.verdict == Verdict::kCandidate && is_late[i])) continue;
+    if (!is_mode(mode) && !(mode.verdict == Verdict::kCandidate && is_late[i])) continue;
     if (!is_late[i] && !(mode.presence < 1.0)) continue;
     const std::optional<double> of_least = of_least_sigma(mode, duration_s);
     if (of_least && *of_least > kMostOfLeastSigma) {
-      set_known_badly(mode, *of_least);
+      set_numerical(mode,
+                    in_words("found in %.0f %% of the orders, with a frequency known to %.2g Hz: a mode with this "
+                             "damping is known %.1f times better",
+                             100.0 * mode.presence, *mode.frequency_std_hz, *of_least));
     } else if (!of_least && is_late[i]) {
       set_numerical(mode, in_words("found in %.0f %% of the orders, without a sigma", 100.0 * mode.presence));
     }
   }
 }
 
-void reject_vague_modes(double duration_s, std::vector<Mode>& modes) {
+void reject_vague_modes(std::vector<Mode>& modes) {
   for (Mode& mode : modes) {
-    if (is_vague(mode, duration_s)) set_known_badly(mode, of_least_sigma(mode, duration_s).value_or(0.0));
+    if (!is_vague(mode)) continue;
+    set_numerical(mode, in_words("found in %.0f %% of the orders, but with a frequency known to %.2g Hz alone",
+                                 100.0 * mode.presence, *mode.frequency_std_hz));
   }
 }
 
-void reject_vague_modes(double duration_s, ModalEstimate& estimate) {
+void reject_vague_modes(ModalEstimate& estimate) {
   std::vector<Mode>& modes = estimate.modes;
-  if (std::none_of(modes.begin(), modes.end(), [&](const Mode& mode) { return is_vague(mode, duration_s); })) return;
-  reject_vague_modes(duration_s, modes);
+  if (std::none_of(modes.begin(), modes.end(), is_vague)) return;
+  reject_vague_modes(modes);
   std::vector<ListedMode> structural, rejected = listed_modes(estimate.rejected, static_cast<int>(modes.size()));
   for (ListedMode& one : listed_modes(modes, 0))
     (one.mode.verdict == Verdict::kNumerical ? rejected : structural).push_back(std::move(one));

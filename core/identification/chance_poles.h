@@ -13,11 +13,11 @@ namespace core {
 // makes it a mode, or a candidate. is_late[i] belongs to modes[i]. duration_s: of the record that is remembered.
 void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, std::vector<Mode>& modes);
 
-// What is left of them in every order: a mode whose sigma of the frequency exceeds both five times the least one and
-// half of its half-power width becomes numerical. (A mode whose frequency drifts exceeds the first alone.) For the
-// final list: an estimate that is replaced later may know its modes badly (identify_shared()).
-void reject_vague_modes(double duration_s, std::vector<Mode>& modes);
+// What is left of them in every order: a mode whose frequency is known to a tenth of itself at best becomes numerical.
+// (True modes beside a near one, or that drift, have up to 17 times the least sigma, some 3 % of their frequency.) For
+// the final list: an estimate that is replaced later may know its modes badly (identify_shared()).
+void reject_vague_modes(std::vector<Mode>& modes);
 // The same in an estimate, whose rejected poles then list it.
-void reject_vague_modes(double duration_s, ModalEstimate& estimate);
+void reject_vague_modes(ModalEstimate& estimate);
 
 }  // namespace core

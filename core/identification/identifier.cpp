@@ -182,7 +182,7 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
     for (Mode& line : judge_steady_lines(lines, sums, delays_as_undone(), outputs_, folding_config(sums.rate_hz)))
       estimate.rejected.push_back(std::move(line));
   }
-  if (subtracts) reject_vague_modes(sums.n_remembered() / sums.rate_hz, estimate);
+  if (subtracts) reject_vague_modes(estimate);
   if (subtracts) list_camera_lines(sums, delays_as_undone(), folding_config(sums.rate_hz), estimate);
   return estimate;
 }
@@ -215,7 +215,7 @@ void Identifier::identify_modes(const CpsdSums& sums, const std::vector<ChannelR
     std::transform(lines.begin(), lines.end(), late.begin(),
                    [&](const PoleCluster& line) { return is_late(line, rules); });
     reject_chance_poles(late, rules.record_s, modes);
-    if (field != nullptr) reject_vague_modes(rules.record_s, modes);
+    if (field != nullptr) reject_vague_modes(modes);
     reject_out_of_phase(config_.min_mpc, sigmas, modes);
     reject_mixtures(modes);
     reject_twins(modes);
