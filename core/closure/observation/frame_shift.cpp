@@ -27,9 +27,11 @@ class Periodic {
         series_(static_cast<std::size_t>(n_fft)),
         bins_(static_cast<std::size_t>(fft_.n_bins())) {
     const std::size_t bridge = series_.size() - n_;
-    for (std::size_t i = 1; i <= bridge; ++i)
-      share_after_.push_back(
-          0.5 + 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(bridge + 1)));
+    share_after_.reserve(bridge);
+    for (std::size_t i = 1; i <= bridge; ++i) {
+      const double along = static_cast<double>(i) / static_cast<double>(bridge + 1);
+      share_after_.push_back(0.5 + 0.5 * std::cos(std::numbers::pi * along));
+    }
   }
 
   [[nodiscard]] std::vector<Complex>& bins() noexcept { return bins_; }
