@@ -14,8 +14,8 @@ namespace core {
 void reject_chance_poles(const std::vector<bool>& is_late, double duration_s, std::vector<Mode>& modes);
 
 // What is left of them in every order: a mode whose frequency is known to a tenth of itself at best becomes numerical.
-// (True modes beside a near one, or that drift, have up to 17 times the least sigma, some 3 % of their frequency.) For
-// the final list: an estimate that is replaced later may know its modes badly (identify_shared()).
+// (The sigma of one that drifts may be many times the least one.) For the final list: an estimate that is replaced
+// later may know its modes badly (identify_shared()).
 void reject_vague_modes(std::vector<Mode>& modes);
 // The same in an estimate, whose rejected poles then list it.
 void reject_vague_modes(ModalEstimate& estimate);

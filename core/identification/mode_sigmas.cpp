@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <map>
 #include <utility>
 
 #include "core/identification/block_deviations.h"
@@ -22,15 +24,6 @@ double robust_variance(std::vector<double> deviation) {
   if (deviation.empty()) return 0.0;
   for (double& d : deviation) d = std::abs(d);
   return std::pow(kSigmaPerMad * median_in_place(deviation), 2);
-}
-
-ModeVariances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {
-  std::vector<double> f, zeta;
-  for (const std::size_t member : line.members) {
-    f.push_back(frequency_hz(poles[member].pole.s) - line.frequency_hz);
-    zeta.push_back(damping_ratio(poles[member].pole.s) - line.damping_ratio);
-  }
-  return {robust_variance(std::move(f)), robust_variance(std::move(zeta))};
 }
 
 // By the overlap of neighbouring segments: a factor of variances.
@@ -56,6 +49,21 @@ ModeVariances least_variances(const Mode& mode, double duration_s) {
   const double turns = kTwoPi * mode.frequency_hz * duration_s, zeta = std::max(0.0, mode.damping_ratio);
   if (!(turns > 0.0)) return {};
   return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
+}
+
+ModeVariances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {
+  std::map<int, std::complex<double>> of_order;
+  const auto distance = [&](std::complex<double> s) { return std::abs(s - line.representative.s); };
+  for (const std::size_t member : line.members) {
+    const std::complex<double> s = poles[member].pole.s;
+    const auto [at, is_first] = of_order.try_emplace(poles[member].i_order, s);
+    if (!is_first && distance(s) < distance(at->second)) at->second = s;
+  }
+  std::vector<double> f, zeta;
+  for (const auto& [order, s] : of_order) f.push_back(frequency_hz(s) - line.frequency_hz);
+  for (const std::size_t member : line.members)
+    zeta.push_back(damping_ratio(poles[member].pole.s) - line.damping_ratio);
+  return {robust_variance(std::move(f)), robust_variance(std::move(zeta))};
 }
 
 // With r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K times the sum of

@@ -22,6 +22,11 @@ struct ModeVariances {
 // zeta f T). {0, 0} for a mode without a frequency.
 [[nodiscard]] ModeVariances least_variances(const Mode& mode, double duration_s);
 
+// Robust (from the median absolute deviation). An order has two poles of a mode that is split into two lines
+// (join_split_lines()): for the frequency only the one nearest to the line's counts, for the damping both, because the
+// second one takes a part of it.
+[[nodiscard]] ModeVariances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles);
+
 // Poles of all orders of one realisation; observed[i], unfolded[i] and leaks[i] belong to the same pole.
 struct SigmaInputs {
   const CpsdSums& sums;
