@@ -125,6 +125,7 @@ def by_family(book, chosen):
 
 
 def absent(book):
+    """The parts without a result, as words; empty: none."""
     names = [name for name, result in book.results.items() if result is None]
     return f"not run on the delivered program: {by_family(book, names)}" if names else ""
 
@@ -155,8 +156,8 @@ def misses(book, _):
     for name, lines, n in parts_that_miss(book):
         head = f"`{name}`, {len(lines)} of {n} lines, on {book.commit(name, NAMED_ROOMS)}"
         text += f"- **{book.parts[name].title}** ({head})\n{missing(lines)}"
-    if absent(book):
-        text += f"- {absent(book)}\n"
+    if words := absent(book):
+        text += f"- {words}\n"
     return text or "- nothing\n"
 
 
@@ -165,7 +166,9 @@ def missed(book, _):
     for name, lines, n in parts_that_miss(book):
         state = "as it is now" if book.valid(name) else "before a change"
         text += f"| {cell(book.parts[name].title)} (`{name}`) | {len(lines)} | {n} | {state} |\n"
-    return text + (f"\nAnd {absent(book)}.\n" if absent(book) else "")
+    if words := absent(book):
+        text += f"\nAnd {words}.\n"
+    return text
 
 
 def count(book, _=()):
@@ -176,8 +179,8 @@ def count(book, _=()):
     text += f"Of {len(book.parts)} parts {len(valid)} ran on the present state of what they measure"
     if changed:
         text += f"; what they measure changed since the run of {by_family(book, changed)}"
-    if absent(book):
-        text += f"; {absent(book)}"
+    if words := absent(book):
+        text += f"; {words}"
     return text + ".\n"
 
 

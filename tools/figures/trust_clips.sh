@@ -3,7 +3,8 @@
 #   tools/figures/trust_clips.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: 2b_60 2b_300 (default: all)
 # --quick takes two seeds; 2b_300 is left out then. Per seed and length a clip is drawn uncompressed and encoded at 0.05, 0.15
 # and 0.4 bits a pixel; the service runs on all four. Their modes stay in build/figures/trust_clips, clips are deleted after
-# each run (16 GB are needed for one of 300 s). A run that was cut off goes on after its last whole seed. libx264's preset superfast draws worse at the same rate than slower ones.
+# each run (16 GB are needed for one of 300 s); a run that was cut off goes on after its last whole seed. libx264's preset
+# superfast draws worse at the same rate than slower ones.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
@@ -52,10 +53,11 @@ PY
 }
 # serve SECONDS SEED BITS: the service on a clip; "seed bits found false mac sigma" in $out/row_BITS.
 serve() {
-  local folder=$out/$1_$2_$3 clip=$out/$3.mp4
+  local row folder=$out/$1_$2_$3 clip=$out/$3.mp4
   [ "$3" != lossless ] || clip=$out/drawn/clip.y4m
   quietly "$bin/hovermodald" --config "$out/drawn/config.yaml" --set "camera.source=$PWD/$clip" --set telemetry.lcm_url= --set closure.adopt=off --report "$folder"
-  echo "$2 $3 $(score "$folder")" >"$out/row_$3"
+  row=$(score "$folder") # by itself, so that a failure ends the run
+  echo "$2 $3 $row" >"$out/row_$3"
   rm -f "$folder/tracks.csv"
 }
 # clips SECONDS SEED: the four clips of a seed, two at a time; nothing here depends on how long it takes.
@@ -69,7 +71,8 @@ clips() {
   serve "$1" "$2" "${rates[1]}" &
   serve "$1" "$2" "${rates[2]}"
   wait $!
-  cat "$out"/row_* >"$kept/$2"
+  cat "$out"/row_* >"$kept/new"
+  mv "$kept/new" "$kept/$2"
   rm -f "$out"/row_* "$out"/*.mp4
 }
 # runs SECONDS: a line for every clip in $out/SECONDS.tsv. Those of a seed stay for a run that was cut off; a change of what

@@ -47,13 +47,15 @@ struct PairsAtLag {
 // the length squares the exponential.
 std::array<double, kLengths> likeness(const PointPairs& pairs, const std::vector<PairsAtLag>& lags, double measured,
                                       double u_px_s, double v_px_s) {
+  const auto decay = [](double u_px, double v_px) {
+    return std::exp(-std::sqrt(u_px * u_px + v_px * v_px) / kLongest_px);
+  };
   std::array<double, kLengths> product{}, squares{}, out{};
   for (const PairsAtLag& lag : lags) {
     const double on_u = u_px_s * lag.seconds, on_v = v_px_s * lag.seconds;
     for (std::size_t p = 0; p < pairs.apart_u_px.size(); ++p) {
       const double du = pairs.apart_u_px[p], dv = pairs.apart_v_px[p];
-      double with = std::exp(-std::sqrt((du - on_u) * (du - on_u) + (dv - on_v) * (dv - on_v)) / kLongest_px);
-      double against = std::exp(-std::sqrt((du + on_u) * (du + on_u) + (dv + on_v) * (dv + on_v)) / kLongest_px);
+      double with = decay(du - on_u, dv - on_v), against = decay(du + on_u, dv + on_v);
       for (std::size_t k = 0; k < kLengths; ++k, with *= with, against *= against) {
         const double predicted = with - against;
         product[k] += predicted * lag.antisymmetric[p], squares[k] += predicted * predicted;

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "core/linear/dense.h"
+#include "core/closure/observation/product.h"
 
 namespace core::closure {
 namespace {
@@ -71,8 +71,7 @@ double LeaveOnePointOut::squares_with(const Eigen::MatrixXd& moments, const Eige
 
 double LeaveOnePointOut::squares_under(const Eigen::MatrixXd& inverse_covariance,
                                        const Eigen::MatrixXd& moments) const {
-  Eigen::MatrixXd half = Eigen::MatrixXd::Zero(moments.rows(), moments.cols());
-  add_product(half, 1.0, inverse_covariance, moments);
+  const Eigen::MatrixXd half = product(inverse_covariance, moments);
   double sum = 0.0;
   for (std::size_t j = 0; j < hat_.size(); ++j) {
     if (counted_[j] == 0) continue;

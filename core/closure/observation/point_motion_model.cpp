@@ -4,18 +4,13 @@
 #include <limits>
 #include <utility>
 
+#include "core/closure/observation/product.h"
 #include "core/linear/dense.h"
 
 namespace core::closure {
 namespace {
 
 constexpr double kLeastNorm = 1e-3;  // smallest norm of a column outside the previous ones; columns below are dropped
-
-Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows(), b.cols());
-  add_product(out, 1.0, a, b);
-  return out;
-}
 
 // QR factor of columns in their order: orthonormal basis, indices of the independent columns, R of X = Q R.
 struct Factor {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/closure/observation/product.h"
 #include "core/linear/dense.h"
 
 namespace core::closure {
@@ -39,9 +40,7 @@ MatrixXd complement(const MatrixXd& q) {
 
 // Squares along each column of `of`.
 VectorXd squares_along(const MatrixXd& of, const MatrixXd& moments) {
-  MatrixXd product = MatrixXd::Zero(of.rows(), of.cols());
-  add_product(product, 1.0, moments, of);
-  return product.cwiseProduct(of).colwise().sum().transpose();
+  return product(moments, of).cwiseProduct(of).colwise().sum().transpose();
 }
 
 }  // namespace

@@ -43,10 +43,10 @@ TEST(SpreadOverOrders, OfAFrequencyTakesOnePoleOfEachOrderOfADampingBoth) {
   std::vector<OrderPole> poles;
   PoleCluster line;
   line.frequency_hz = 5.0, line.damping_ratio = 0.01, line.representative = pole(0, 5.0, 0.01).pole;
-  const double offs[] = {-0.004, -0.002, 0.0, 0.002, 0.004};
-  for (int i = 0; i < 5; ++i) {
-    poles.push_back(pole(i, 5.1, 0.03));
-    poles.push_back(pole(i, 5.0 + offs[i], 0.01 + offs[i]));
+  for (const double off : {-0.004, -0.002, 0.0, 0.002, 0.004}) {
+    const int i_order = static_cast<int>(poles.size() / 2);
+    poles.push_back(pole(i_order, 5.1, 0.03));
+    poles.push_back(pole(i_order, 5.0 + off, 0.01 + off));
   }
   for (std::size_t i = 0; i < poles.size(); ++i) line.members.push_back(i);
   const ModeVariances spread = spread_over_orders(line, poles);
