@@ -45,11 +45,13 @@ void keep_freed_memory() noexcept {
   set_heap(M_MMAP_MAX, 0);
 }
 
-// Setting it also ends its adaptation: one freed block of 32 MB would leave all smaller ones to the heap.
+// Setting them also ends their adaptation: one freed block of 32 MB would leave all smaller ones to the heap, and 64 MB
+// of free memory at its end. Smaller limits than these cost page faults.
 void give_back_large_blocks() noexcept {
-  constexpr int kLargeBytes = 1 << 20;
+  constexpr int kLargeBytes = 1 << 19, kSpareBytes = 1 << 20;
   set_heap(M_MMAP_THRESHOLD, kLargeBytes);
-  set_heap(M_ARENA_MAX, 2);
+  set_heap(M_TRIM_THRESHOLD, kSpareBytes);
+  set_heap(M_ARENA_MAX, 1);
 }
 
 // A separate function, so that its stack frame is released on return.

@@ -13,8 +13,8 @@ namespace rt {
 // the memory once, it is mapped for the run path. Process-wide; call it before set-up.
 void keep_freed_memory() noexcept;
 
-// The opposite: blocks of a megabyte or more come from new pages, which go back to the system when they are freed;
-// otherwise the heap keeps them, in pieces, wherever a thread has once used much memory. All threads share two heaps:
+// The opposite: blocks of half a megabyte or more come from new pages, which go back to the system when they are freed;
+// otherwise the heap keeps them, in pieces, wherever a thread has once used much memory. All threads share one heap:
 // each of its own would keep what its thread once needed. Process-wide; call it before other threads allocate.
 void give_back_large_blocks() noexcept;
 

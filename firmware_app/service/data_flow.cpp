@@ -9,11 +9,8 @@ namespace app {
 namespace {
 
 // Before anything is allocated and before the camera runs: locking memory takes as long as several frames.
-std::string keep_memory(const AppConfig& config) {
-  if (!config.rt.lock_memory) {
-    rt::give_back_large_blocks();
-    return {};
-  }
+std::string lock_memory_of(const RtConfig& config) {
+  if (!config.lock_memory) return {};
   rt::keep_freed_memory();
   return rt::lock_memory();
 }
@@ -33,7 +30,7 @@ DataFlow::DataFlow(const AppConfig& c, std::optional<core::structure::DeclaredFr
                    std::unique_ptr<drivers::Publisher> publisher)
     : config(c),
       structure(std::move(declared)),
-      lock_refused(keep_memory(config)),
+      lock_refused(lock_memory_of(config.rt)),
       source(std::move(camera), config),
       recorder(std::move(record)),
       out(std::move(publisher)) {

@@ -17,10 +17,13 @@
 #include "firmware_app/service/preflight.h"
 #include "firmware_app/service/run_diagnosis.h"
 #include "rt/clock.h"
+#include "rt/memory.h"
 
 namespace app {
 
 Pipeline::Pipeline(const AppConfig& declared) {
+  // The search for axes and the camera start threads.
+  if (!declared.rt.lock_memory) rt::give_back_large_blocks();
   std::optional<core::structure::DeclaredFrame> structure = declared_structure(declared);
   std::string unclaimed;
   claims_ = claim_folders(declared, unclaimed);

@@ -3,51 +3,37 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace core::closure {
-namespace {
-
-template <typename A, typename B>
-double product(const A& a, const B& b, Eigen::Index block) {
-  const Eigen::Index from = block * a.cols() / BlockEstimates::kBlocks;
-  const Eigen::Index count = (block + 1) * a.cols() / BlockEstimates::kBlocks - from;
-  return a.middleCols(from, count).cwiseProduct(b.middleCols(from, count)).sum();
-}
-
-template <typename Field>
-std::vector<const Field*> pointers_to(std::span<const Field> fields) {
-  std::vector<const Field*> out;
-  for (const Field& field : fields) out.push_back(&field);
-  return out;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual) {
-  add_blocks<Eigen::MatrixXd>(pointers_to(fields), residual);
+  std::vector<const Eigen::MatrixXd*> pointers;
+  for (const Eigen::MatrixXd& field : fields) pointers.push_back(&field);
+  add_blocks<Eigen::MatrixXd>(pointers, residual);
 }
 
-BlockEstimates::BlockEstimates(std::span<const CompactField> fields, const Eigen::MatrixXd& residual) {
-  add_blocks<CompactField>(pointers_to(fields), residual);
+BlockEstimates::BlockEstimates(std::span<const CompactField* const> fields, const LeftOutErrors& errors) {
+  add_blocks(fields, errors);
 }
 
-BlockEstimates::BlockEstimates(std::span<const CompactField* const> fields, const Eigen::MatrixXd& residual) {
-  add_blocks(fields, residual);
-}
-
-template <typename Field>
-void BlockEstimates::add_blocks(std::span<const Field* const> fields, const Eigen::MatrixXd& residual) {
+template <typename Field, typename Residual>
+void BlockEstimates::add_blocks(std::span<const Field* const> fields, const Residual& residual) {
   const auto n = static_cast<Eigen::Index>(fields.size());
   normal_sum_ = Eigen::MatrixXd::Zero(n, n);
   right_sum_ = Eigen::VectorXd::Zero(n);
   for (Eigen::Index block = 0; block < kBlocks; ++block) {
+    const Eigen::Index from = block * residual.cols() / kBlocks, to = (block + 1) * residual.cols() / kBlocks;
+    const auto of_block = [&](const auto& series) { return series.middleCols(from, to - from); };
+    const auto of_residual = of_block(residual);
     Eigen::MatrixXd normal(n, n);
     Eigen::VectorXd right(n);
     for (Eigen::Index p = 0; p < n; ++p) {
-      const Field& field = *fields[static_cast<std::size_t>(p)];
-      right(p) = product(field, residual, block);
+      const auto field = of_block(*fields[static_cast<std::size_t>(p)]);
+      right(p) = field.cwiseProduct(of_residual).sum();
       for (Eigen::Index q = 0; q <= p; ++q)
-        normal(p, q) = normal(q, p) = product(field, *fields[static_cast<std::size_t>(q)], block);
+        normal(p, q) = normal(q, p) = field.cwiseProduct(of_block(*fields[static_cast<std::size_t>(q)])).sum();
     }
     normal_sum_ += normal, right_sum_ += right;
     normal_.push_back(std::move(normal)), right_.push_back(std::move(right));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/closure/observation/compact_field.h"
+#include "core/closure/observation/leave_one_point_out.h"
 
 namespace core::closure {
 
@@ -15,8 +16,8 @@ class BlockEstimates {
   static constexpr Eigen::Index kBlocks = 10;
 
   BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual);
-  BlockEstimates(std::span<const CompactField> fields, const Eigen::MatrixXd& residual);
-  BlockEstimates(std::span<const CompactField* const> fields, const Eigen::MatrixXd& residual);
+  // Of the errors of points left out, which are computed block by block.
+  BlockEstimates(std::span<const CompactField* const> fields, const LeftOutErrors& errors);
 
   [[nodiscard]] Eigen::VectorXd values() const;
   // The larger, parameter by parameter, of two: that of white noise of unit variance, and that of the values without
@@ -29,8 +30,8 @@ class BlockEstimates {
   [[nodiscard]] double sigmas_from_zero() const;
 
  private:
-  template <typename Field>
-  void add_blocks(std::span<const Field* const> fields, const Eigen::MatrixXd& residual);
+  template <typename Field, typename Residual>
+  void add_blocks(std::span<const Field* const> fields, const Residual& residual);
   [[nodiscard]] Eigen::MatrixXd without_each() const;  // constants x blocks
 
   std::vector<Eigen::MatrixXd> normal_;

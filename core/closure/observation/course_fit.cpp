@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <utility>
 
 #include "core/closure/observation/block_estimates.h"
 
@@ -16,28 +17,46 @@ Eigen::MatrixXd solved(const Eigen::MatrixXd& normal, const Eigen::MatrixXd& rig
 
 }  // namespace
 
-CourseFit::CourseFit(const PointCourses& courses, const Eigen::MatrixXd& residual)
-    : courses_(courses), n_rows_(residual.rows()), n_frames_(residual.cols()), sets_(courses.sets.size()) {
+CourseFit::CourseFit(const PointCourses& courses, const Eigen::MatrixXd& residual) : courses_(courses) {
+  add_blocks(residual);
+}
+
+CourseFit::CourseFit(const PointCourses& courses, const LeftOutErrors& errors) : courses_(courses) {
+  add_blocks(errors);
+}
+
+void CourseFit::begin(Eigen::Index n_rows, Eigen::Index n_frames) {
+  n_rows_ = n_rows, n_frames_ = n_frames;
+  sets_.resize(courses_.sets.size());
   for (Eigen::Index row = 0; row < n_rows_; ++row)
-    sets_[courses.set_of_point[static_cast<std::size_t>(row / 2)]].rows.push_back(row);
+    sets_[courses_.set_of_point[static_cast<std::size_t>(row / 2)]].rows.push_back(row);
   for (std::size_t s = 0; s < sets_.size(); ++s) {
-    OfSet& set = sets_[s];
-    const Eigen::MatrixXd& of = courses.sets[s];
-    const auto n_of_rows = static_cast<Eigen::Index>(set.rows.size());
-    set.normal_sum = Eigen::MatrixXd::Zero(of.rows(), of.rows());
-    set.right_sum = Eigen::MatrixXd::Zero(n_of_rows, of.rows());
-    for (Eigen::Index block = 0; block < kBlocks; ++block) {
-      const Eigen::Index from = block * n_frames_ / kBlocks, count = (block + 1) * n_frames_ / kBlocks - from;
-      const Eigen::MatrixXd here = of.middleCols(from, count);
+    const Eigen::Index n_courses = courses_.sets[s].rows();
+    sets_[s].normal_sum = Eigen::MatrixXd::Zero(n_courses, n_courses);
+    sets_[s].right_sum = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sets_[s].rows.size()), n_courses);
+  }
+}
+
+template <typename Residual>
+void CourseFit::add_blocks(const Residual& residual) {
+  begin(residual.rows(), residual.cols());
+  for (Eigen::Index block = 0; block < kBlocks; ++block) {
+    const Eigen::Index from = block * n_frames_ / kBlocks, count = (block + 1) * n_frames_ / kBlocks - from;
+    const auto of_block = residual.middleCols(from, count);
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      OfSet& set = sets_[s];
+      const Eigen::MatrixXd here = courses_.sets[s].middleCols(from, count);
       set.normal.emplace_back(here * here.transpose());
-      Eigen::MatrixXd right(n_of_rows, of.rows());
-      for (Eigen::Index i = 0; i < n_of_rows; ++i)
-        right.row(i) = residual.row(set.rows[static_cast<std::size_t>(i)]).segment(from, count) * here.transpose();
+      Eigen::MatrixXd right(set.right_sum.rows(), here.rows());
+      for (Eigen::Index i = 0; i < right.rows(); ++i)
+        right.row(i) = of_block.row(set.rows[static_cast<std::size_t>(i)]) * here.transpose();
       set.normal_sum += set.normal.back(), set.right_sum += right;
       set.right.push_back(std::move(right));
     }
-    is_usable_ = is_usable_ && set.normal_sum.ldlt().isPositive() && (set.normal_sum.diagonal().array() > 0.0).all();
   }
+  is_usable_ = std::all_of(sets_.begin(), sets_.end(), [](const OfSet& set) {
+    return set.normal_sum.ldlt().isPositive() && (set.normal_sum.diagonal().array() > 0.0).all();
+  });
 }
 
 double CourseFit::held_out_gain() const {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/closure/observation/leave_one_point_out.h"
+
 namespace core::closure {
 
 // Courses in time that are known, for each point one of some sets.
@@ -18,6 +20,8 @@ struct PointCourses {
 class CourseFit {
  public:
   CourseFit(const PointCourses& courses, const Eigen::MatrixXd& residual);
+  // Of the errors of points left out, which are computed block by block.
+  CourseFit(const PointCourses& courses, const LeftOutErrors& errors);
 
   [[nodiscard]] bool is_usable() const noexcept { return is_usable_; }  // the courses of each set are independent
   // Drop of the squares of each of ten blocks, in noise variances, where the constants come from the other nine;
@@ -35,8 +39,12 @@ class CourseFit {
     Eigen::MatrixXd normal_sum, right_sum;
   };
 
+  void begin(Eigen::Index n_rows, Eigen::Index n_frames);
+  template <typename Residual>
+  void add_blocks(const Residual& residual);
+
   const PointCourses& courses_;
-  Eigen::Index n_rows_, n_frames_;
+  Eigen::Index n_rows_ = 0, n_frames_ = 0;
   std::vector<OfSet> sets_;
   bool is_usable_ = true;
 };

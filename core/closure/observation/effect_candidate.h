@@ -47,7 +47,7 @@ class EffectCandidate {
     return std::nullopt;
   }
   // Derivatives by its constants of the errors of points left out, 2 points x frames in sigmas; empty: it has none.
-  [[nodiscard]] virtual std::span<const CompactField> constant_fields() const { return {}; }
+  [[nodiscard]] virtual std::span<const CompactField* const> constant_fields() const { return {}; }
   [[nodiscard]] virtual std::unique_ptr<EffectInModel> adopted() const = 0;
 };
 

@@ -57,6 +57,8 @@ class HeldOut {
   [[nodiscard]] double squares(const Eigen::MatrixXd& residual) const;
   // Prediction errors of points left out, outside the band of the model's added columns; 2 points x frames, in sigmas.
   [[nodiscard]] Eigen::MatrixXd errors(const Eigen::MatrixXd& residual) const { return high_.errors(residual); }
+  // The same, frame by frame as needed; both this and the residual must outlive it.
+  [[nodiscard]] LeftOutErrors errors_of(const Eigen::MatrixXd& residual) const { return {high_, residual}; }
   [[nodiscard]] double noise_variance() const;  // expected per value, for noise of unit variance
 
   // Of a known pattern, in the rungs where it gains.

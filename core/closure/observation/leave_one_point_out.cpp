@@ -33,7 +33,7 @@ LeaveOnePointOut::LeaveOnePointOut(const Eigen::MatrixXd& q) {
   }
 }
 
-Eigen::MatrixXd LeaveOnePointOut::errors(const Eigen::MatrixXd& residual) const {
+Eigen::MatrixXd LeaveOnePointOut::errors(const Eigen::Ref<const Eigen::MatrixXd>& residual) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
   for (std::size_t j = 0; j < hat_.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(2 * j);

@@ -12,7 +12,7 @@ class LeaveOnePointOut {
   explicit LeaveOnePointOut(const Eigen::MatrixXd& q);  // 2 points x columns, orthonormal
 
   // e of residuals (2 points x frames); zero for points that no others predict.
-  [[nodiscard]] Eigen::MatrixXd errors(const Eigen::MatrixXd& residual) const;
+  [[nodiscard]] Eigen::MatrixXd errors(const Eigen::Ref<const Eigen::MatrixXd>& residual) const;
   // Summed squares of e over all frames, from the residuals' second moments (sum of r r').
   [[nodiscard]] double squares(const Eigen::MatrixXd& moments) const;
   // The same with one more orthonormal column g, orthogonal to Q.
@@ -33,6 +33,23 @@ class LeaveOnePointOut {
   std::vector<char> counted_;
   double noise_ = 0.0;
   Eigen::Index n_values_ = 0, n_alone_ = 0;
+};
+
+// The errors of a residual's points, computed only for the frames that are asked for. Both arguments must outlive it.
+class LeftOutErrors {
+ public:
+  LeftOutErrors(const LeaveOnePointOut& left_out, const Eigen::MatrixXd& residual)
+      : left_out_(left_out), residual_(residual) {}
+
+  [[nodiscard]] Eigen::Index rows() const noexcept { return residual_.rows(); }
+  [[nodiscard]] Eigen::Index cols() const noexcept { return residual_.cols(); }
+  [[nodiscard]] Eigen::MatrixXd middleCols(Eigen::Index from, Eigen::Index count) const {
+    return left_out_.errors(residual_.middleCols(from, count));
+  }
+
+ private:
+  const LeaveOnePointOut& left_out_;
+  const Eigen::MatrixXd& residual_;
 };
 
 }  // namespace core::closure

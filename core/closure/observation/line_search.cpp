@@ -93,7 +93,9 @@ std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum, double f
   const Eigen::VectorXd power = spectrum.colwise().squaredNorm().transpose();
   const double bin_hz = rate_hz_ / n_fft_;
   std::vector<std::pair<double, double>> found;  // power, Hz
-  for (double f = from_hz; f < to_hz; f += 0.25 * kPeakWidth_hz) {
+  const int n_places = static_cast<int>(std::ceil((to_hz - from_hz) / (0.25 * kPeakWidth_hz)));
+  for (int place = 0; place < n_places; ++place) {
+    const double f = from_hz + 0.25 * kPeakWidth_hz * place;
     const Band b = band(f, 0.5 * kPeakWidth_hz);
     if (b.count > 0) found.emplace_back(power.segment(b.first, b.count).mean(), f);
   }
@@ -150,11 +152,11 @@ double LineSearch::gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen:
   return drop;
 }
 
-double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const {
+double LineSearch::pattern_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   constexpr Eigen::Index kParts = 5;
   constexpr int kSteps = 40;
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
-  const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
+  const auto bins = spectrum.middleCols(b.first, b.count);
   std::vector<Eigen::MatrixXcd> parts;
   Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(bins.rows(), bins.rows());
   for (Eigen::Index p = 0; p < kParts; ++p) {
@@ -225,10 +227,11 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   for (int fold = -most; fold <= most; ++fold) {
     const double g = gain_of_columns(moments, columns_of(fold, apparent_hz));
     if (fold == 0) at_rest = g;
-    if (g > own.gain)
+    if (g > own.gain) {
       own.next_gain = own.gain, own.gain = g, own.fold = fold;
-    else
+    } else {
       own.next_gain = std::max(own.next_gain, g);
+    }
   }
   const double margin = own.gain - own.next_gain;
   if (best.apparent_hz > 0.0 && !(own.gain > 0.0)) return;
@@ -245,16 +248,15 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   if (best.apparent_hz == 0.0 || own.gain > best.gain) best = own;
 }
 
-LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
-  const Eigen::MatrixXcd bins = spectrum(residual);
+LineFinding LineSearch::find(const Eigen::MatrixXcd& spectrum) const {
   LineFinding best;
   const double highest_hz = 0.5 * rate_hz_ - kPeakWidth_hz;
-  for (const double peak : peaks(bins, kSlowest_hz, highest_hz)) try_folds(bins, peak, best);
+  for (const double peak : peaks(spectrum, kSlowest_hz, highest_hz)) try_folds(spectrum, peak, best);
   // Below, only the rows distinguish a line from the camera's slow rotations.
   if (std::abs(readout_frames_) >= kTellingReadout_frames) {
-    for (const double peak : peaks(bins, kSlowestFolded_hz, kSlowest_hz)) try_folds(bins, peak, best);
+    for (const double peak : peaks(spectrum, kSlowestFolded_hz, kSlowest_hz)) try_folds(spectrum, peak, best);
   }
-  recentre(bins, best);
+  recentre(spectrum, best);
   return best;
 }
 

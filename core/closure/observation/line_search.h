@@ -58,13 +58,14 @@ class LineSearch {
   LineSearch(const PointMotionModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
              Eigen::Index n_frames);
 
-  // residual: 2 points x frames, in sigmas, after the fit of the model.
-  [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
+  // spectrum: ResidualMoments::spectrum of a residual of n_frames, after the fit of the model.
+  [[nodiscard]] LineFinding find(const Eigen::MatrixXcd& spectrum) const;
   // Gain in the finding's band of the best pattern of any other kind, learned on four fifths of its bins and scored on
   // the remaining fifth.
-  [[nodiscard]] double pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
-  // The finding's motion fitted to this residual, each axis and part of the band less its share of noise. later: points
-  // x frames, difference between a point's readout fraction and its mean, in readouts.
+  [[nodiscard]] double pattern_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
+  // The finding's motion fitted to this residual (2 points x frames, in sigmas), each axis and part of the band less
+  // its share of noise. later: points x frames, difference between a point's readout fraction and its mean, in
+  // readouts.
   [[nodiscard]] LineMotion motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
                                   const Eigen::MatrixXd& later) const;
   // motion_px: sum of motion().

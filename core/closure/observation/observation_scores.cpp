@@ -133,9 +133,10 @@ Objection ObservationScores::refusal(const EffectCandidate& candidate, double ga
 double ObservationScores::constants_gain(const TestedResidual& tested) const {
   std::vector<const CompactField*> fields;
   for (const auto& candidate : prepared_) {
-    for (const CompactField& field : candidate->constant_fields()) fields.push_back(&field);
+    const std::span<const CompactField* const> own = candidate->constant_fields();
+    fields.insert(fields.end(), own.begin(), own.end());
   }
-  return fields.empty() ? 0.0 : BlockEstimates(fields, fit_.view().held_out.errors(tested.values)).held_out_gain();
+  return fields.empty() ? 0.0 : BlockEstimates(fields, fit_.view().held_out.errors_of(tested.values)).held_out_gain();
 }
 
 std::vector<CandidateScore> ObservationScores::score() {

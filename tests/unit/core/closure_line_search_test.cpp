@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/held_out.h"
 #include "core/closure/observation/kinds/line_effect.h"
 #include "core/closure/observation/line_search.h"
 #include "tests/support/swaying_record.h"
@@ -44,7 +45,7 @@ LineFit fit_line(double frequency_hz, double wander_hz) {
   const auto rotor = std::unique_ptr<ObservationEffect>(make_rotor_line());
   const LineSearch search(model, record.rate_hz, kReadout_frames,
                           dynamic_cast<const LineEffect&>(*rotor).patterns(model.geometry(), kReadout_frames), kFrames);
-  LineFit fit{search.find(model.residual()), 0.0};
+  LineFit fit{search.find(residual_moments(model.residual(), record.rate_hz).spectrum), 0.0};
   const Eigen::MatrixXd later = Eigen::MatrixXd::Zero(record.n_points(), kFrames);
   Eigen::MatrixXd motion = search.motion(model.residual(), fit.finding, later).px;
   for (int round = 0; round < 6; ++round) {  // recovers the part of the line that the regions' free motion had absorbed

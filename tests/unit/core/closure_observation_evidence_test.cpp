@@ -78,7 +78,9 @@ TEST(BlockEstimates, CompactFieldsGiveTheSameNumbers) {
   const std::vector<Eigen::MatrixXd> fields{white(20, 2000, 5), white(20, 2000, 7)};
   const Eigen::MatrixXd residual = white(20, 2000, 6) + 0.05 * fields[0] - 0.02 * fields[1];
   const std::vector<CompactField> kept{CompactField(fields[0]), CompactField(fields[1])};
-  const BlockEstimates all(fields, residual), compact(std::span<const CompactField>(kept), residual);
+  const std::vector<const CompactField*> pointers{&kept[0], &kept[1]};
+  const LeaveOnePointOut nothing_fitted(Eigen::MatrixXd(20, 0));
+  const BlockEstimates all(fields, residual), compact(pointers, LeftOutErrors(nothing_fitted, residual));
   EXPECT_TRUE(compact.values().isApprox(all.values(), 2e-5));
   EXPECT_TRUE(compact.covariance().isApprox(all.covariance(), 1e-4));
   EXPECT_NEAR(compact.held_out_gain(), all.held_out_gain(), 2e-5 * all.held_out_gain());

@@ -76,15 +76,15 @@ class ConstantCandidate final : public EffectCandidate {
       error_fields_.emplace_back(fit.held_out.errors(field));
       field.resize(0, 0);
     }
+    for (const CompactField& field : error_fields_) fields_.push_back(&field);
   }
   // In squares of points left out, as the scores of patterns.
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return BlockEstimates(std::span<const CompactField>(error_fields_), fit_.held_out.errors(residual.values))
-        .held_out_gain();
+    return BlockEstimates(fields_, fit_.held_out.errors_of(residual.values)).held_out_gain();
   }
   double find(const TestedResidual& residual) override { return gain(residual); }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
-  [[nodiscard]] std::span<const CompactField> constant_fields() const override { return error_fields_; }
+  [[nodiscard]] std::span<const CompactField* const> constant_fields() const override { return fields_; }
   [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (sigmas_ > kLeastSigmas) return {};
     return {"within three of its own standard deviations of zero", true};
@@ -96,8 +96,9 @@ class ConstantCandidate final : public EffectCandidate {
  private:
   const ConstantEffect& effect_;
   const FitView fit_;
-  double sigmas_ = 0.0;                     // from zero, of the fit's own residual
-  std::vector<CompactField> error_fields_;  // errors of points left out of the derivatives
+  double sigmas_ = 0.0;                      // from zero, of the fit's own residual
+  std::vector<CompactField> error_fields_;   // errors of points left out of the derivatives
+  std::vector<const CompactField*> fields_;  // these
 };
 
 }  // namespace

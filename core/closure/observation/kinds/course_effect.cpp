@@ -107,7 +107,7 @@ class CourseCandidate final : public EffectCandidate {
  private:
   // Of points left out, as those of patterns.
   [[nodiscard]] double gain_of(const std::optional<PointCourses>& courses, const TestedResidual& residual) const {
-    return courses ? CourseFit(*courses, fit_.held_out.errors(residual.values)).held_out_gain() : 0.0;
+    return courses ? CourseFit(*courses, fit_.held_out.errors_of(residual.values)).held_out_gain() : 0.0;
   }
 
   // Of the squares of the constants, explained by a field over the image.

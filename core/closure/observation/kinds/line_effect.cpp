@@ -82,21 +82,22 @@ class LineCandidate final : public EffectCandidate {
   LineCandidate(const LineEffect& effect, const FitView& fit)
       : effect_(effect), fit_(fit), search_(search_in(effect, fit)) {}
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return effect_.is_steady() ? search_.find(residual.values).gain : 0.0;  // one search serves both kinds of line
+    return effect_.is_steady() ? search_.find(residual.moments.spectrum).gain
+                               : 0.0;  // one search serves both kinds of line
   }
   double find(const TestedResidual& residual) override {
-    found_ = search_.find(residual.values);
+    found_ = search_.find(residual.moments.spectrum);
     return found_.gain;
   }
   [[nodiscard]] double material_share() const override { return kLineBar; }
-  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
+  [[nodiscard]] Objection objection(const TestedResidual& residual) const override {
     if (found_.is_steady(fit_.record.rate_hz, fit_.readout_frames) != effect_.is_steady())
       return {effect_.is_steady() ? "it is a band, or slower than a rotor" : "it is the line of a steady rotor", false};
     if (!effect_.is_steady() && found_.spread_hz > kWidest_hz) return {"too wide for a band", false};
     if (found_.apparent_hz < LineSearch::kSlowest_hz && (found_.fold == 0 || !effect_.is_steady()))
       return {"a slow rotation", false};
     if (std::string words = of_structure(); !words.empty()) return {std::move(words), true};
-    if (!(found_.gain < kOfPattern * search_.pattern_gain(fit_.model.residual(), found_))) return {};
+    if (!(found_.gain < kOfPattern * search_.pattern_gain(residual.moments.spectrum, found_))) return {};
     return {"a projection of another effect: in its band the best learned pattern explains more", false};
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
