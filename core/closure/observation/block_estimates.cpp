@@ -6,10 +6,10 @@
 #include <utility>
 
 namespace core::closure {
-namespace {}  // namespace
 
 BlockEstimates::BlockEstimates(std::span<const Eigen::MatrixXd> fields, const Eigen::MatrixXd& residual) {
   std::vector<const Eigen::MatrixXd*> pointers;
+  pointers.reserve(fields.size());
   for (const Eigen::MatrixXd& field : fields) pointers.push_back(&field);
   add_blocks<Eigen::MatrixXd>(pointers, residual);
 }

@@ -81,9 +81,9 @@ class LineCandidate final : public EffectCandidate {
  public:
   LineCandidate(const LineEffect& effect, const FitView& fit)
       : effect_(effect), fit_(fit), search_(search_in(effect, fit)) {}
+  // One search serves both kinds of line.
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return effect_.is_steady() ? search_.find(residual.moments.spectrum).gain
-                               : 0.0;  // one search serves both kinds of line
+    return effect_.is_steady() ? search_.find(residual.moments.spectrum).gain : 0.0;
   }
   double find(const TestedResidual& residual) override {
     found_ = search_.find(residual.moments.spectrum);
